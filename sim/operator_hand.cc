@@ -6,8 +6,6 @@
 namespace godobject::sim {
 namespace {
 
-constexpr double kRow = 1e-3;  // period of a script's rows [s]
-
 /// The rotation vector from a to b, on the axes of R.
 Vector3 rotation_between(const Pose& a, const Pose& b) noexcept {
   return log_rotation(b.rotation * a.rotation.conjugate());

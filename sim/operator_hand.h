@@ -45,9 +45,11 @@ struct HandWrenches {
 /// when the grip is at rest. The springs are conservative: torque = stiffness times rotation vector.
 class OperatorHand {
  public:
+  static constexpr double kRow = 1e-3;  ///< time between two poses of a script [s]
+
   OperatorHand() = default;
 
-  /// `script`: target poses H_RM of the tool, 1 ms apart, the first at time `start_ns`; outlives the hand. The first
+  /// `script`: target poses H_RM of the tool, `kRow` apart, the first at time `start_ns`; outlives the hand. The first
   /// pose holds before the script, the last one after it. Without a script the hand is passive: a mass, damped against
   /// the room.
   explicit OperatorHand(const HandParameters& parameters, std::span<const Pose> script = {},

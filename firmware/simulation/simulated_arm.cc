@@ -50,7 +50,7 @@ std::vector<Pose> slowed(const std::vector<Pose>& path, double slower) {
 std::vector<Pose> read_path(const ControllerConfig& config, const Placement& placement) {
   const Pose rest = forward_kinematics(config.device.model, config.workspace.posture).H_RM;
   if (config.simulation.path.empty()) return {rest};
-  std::vector<Pose> path = files::read_pose_path(config.simulation.path).poses;
+  std::vector<Pose> path = files::read_pose_path(config.simulation.path, sim::OperatorHand::kRow).poses;
   for (const Pose& pose : path) {
     if (!pose.is_finite() || !(pose.rotation.norm() > 0.999 && pose.rotation.norm() < 1.001)) {
       throw Failure(ExitCode::kBadData, fmt::format("{}: has a row with an invalid pose; check its quaternions",

@@ -27,7 +27,7 @@ class SimulatedArm {
 
   int joint_count() const noexcept { return plant_.joint_count(); }
   std::int64_t now_ns() const noexcept { return plant_.now_ns(); }
-  double path_seconds() const noexcept { return 1e-3 * static_cast<double>(path_.size()); }
+  double path_seconds() const noexcept { return sim::OperatorHand::kRow * static_cast<double>(path_.size()); }
   double hand_work() const noexcept { return plant_.work().hand.sum(); }  ///< work on the tool since the start [J]
 
  private:

@@ -28,7 +28,7 @@ Status plain_update(const Pose& H_WM, CycleReport& report) { return god_object->
 int main(int argc, char** argv) try {
   if (argc != 6) return 64;
   const auto image = files::SceneImage::read(argv[1]);
-  const files::PosePath path = files::read_pose_path(argv[2]);
+  const files::PosePath path = files::read_pose_path(argv[2], image.scene.settings.period);
   const auto first = static_cast<std::size_t>(std::atoi(argv[3]));
   const auto end = static_cast<std::size_t>(std::atoi(argv[4]));
   const bool friction = std::string_view(argv[5]) == "on";

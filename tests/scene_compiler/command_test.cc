@@ -210,12 +210,12 @@ TEST(Command, ChoosesVoxelEdgesForAnAccuracy) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
 }
 
-/// A small tilted cube, pressed on the top of a large one and moved along: one pose for each millisecond.
-std::string pressed_cube() {
+/// A small tilted cube, pressed on the top of a large one and moved along: one pose for each period [s].
+std::string pressed_cube(double period = 1e-3) {
   std::string rows = "t,px,py,pz,qw,qx,qy,qz\n";
   for (int k = 0; k < 40; ++k) {
     const double height = 0.082 - 0.0005 * std::min(k, 20);
-    rows += std::to_string(1e-3 * k) + "," + std::to_string(1e-4 * k) + ",0.003," + std::to_string(height) +
+    rows += std::to_string(period * k) + "," + std::to_string(1e-4 * k) + ",0.003," + std::to_string(height) +
             ",0.98,0.14,0.14,0\n";
   }
   return rows;
@@ -226,13 +226,17 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// A scene of two cubes that compiles quickly.
+std::string small_scene() {
+  const std::string mesh = "mesh = \"" + mesh_file("cube_100mm").string() + "\"\n";
+  return "[still]\n" + mesh + "voxel_size = 0.02\nfield_tolerance = 2\n[moving]\n" + mesh +
+         "scale = 0.4\npoints = 60\nlevels = 2\n[contact]\nboth_directions = false\n";
+}
+
 /// Runs the command that tries settings of a small scene for a budget and writes IMAGE. `more`: further arguments.
 Outcome tried(const ScratchFolder& folder, const std::string& image, const std::string& more) {
-  const std::string mesh = "mesh = \"" + mesh_file("cube_100mm").string() + "\"\n";
-  const std::string text = "[still]\n" + mesh + "voxel_size = 0.02\nfield_tolerance = 2\n[moving]\n" + mesh +
-                           "scale = 0.4\npoints = 60\nlevels = 2\n[contact]\nboth_directions = false\n";
-  return run(kScenec + " " + folder.write("s.toml", text).string() + " -o " + folder.file(image).string() + " --path " +
-             folder.write("p.csv", pressed_cube()).string() + more);
+  return run(kScenec + " " + folder.write("s.toml", small_scene()).string() + " -o " + folder.file(image).string() +
+             " --path " + folder.write("p.csv", pressed_cube()).string() + more);
 }
 
 TEST(Command, ChoosesSettingsForABudget) {
@@ -261,6 +265,26 @@ TEST(Command, RefusesABudgetThatNothingFits) {
   EXPECT_EQ(without_budget.exit_code, 64);
   EXPECT_NE(without_budget.output.find("--path is for --budget"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder.file("c.scene")));
+}
+
+/// A motion at another rate than the scene's would be tried at the wrong speed.
+TEST(Command, TriesMotionsOfThePeriodOfTheScene) {
+  const ScratchFolder folder;
+  const std::string scene = folder.write("s.toml", small_scene() + "[coupling]\nperiod = 0.004\n").string();
+  const auto with = [&](const std::filesystem::path& motion) {
+    return run(kScenec + " " + scene + " -o " + folder.file("a.scene").string() +
+               " --budget 1000ms --only-solver paper" + " --path " + motion.string());
+  };
+  const Outcome rows = with(folder.write("fast.csv", pressed_cube(0.001)));
+  EXPECT_EQ(rows.exit_code, 65) << rows.output;
+  EXPECT_NE(rows.output.find("is not 4 ms"), std::string::npos) << rows.output;
+  const std::string poses =
+      "[[keyframe]]\nt = 0\nposition = [0, 0, 0.1]\n[[keyframe]]\nt = 1\nposition = [0, 0, 0.07]\n";
+  const Outcome keyframes = with(folder.write("fast.toml", poses));
+  EXPECT_EQ(keyframes.exit_code, 65) << keyframes.output;
+  EXPECT_NE(keyframes.output.find("set period = 0.004"), std::string::npos) << keyframes.output;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.scene")));
+  EXPECT_EQ(with(folder.write("slow.csv", pressed_cube(0.004))).exit_code, 0);
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ const std::vector<Workload>& workloads() {
 }
 
 std::vector<Pose> device_poses(const Workload& workload, const std::filesystem::path& scenes) {
-  return path::read_poses(scenes / "paths" / workload.path);
+  constexpr double kPeriod = 1e-3;  // of these scenes [s]
+  return path::read_poses(scenes / "paths" / workload.path, kPeriod);
 }
 
 std::string Pipeline::name() const {

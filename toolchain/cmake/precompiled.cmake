@@ -6,29 +6,28 @@ target_link_libraries(godobject_precompiled PRIVATE godobject_core godobject_war
 target_precompile_headers(godobject_precompiled PRIVATE
   <algorithm> <filesystem> <functional> <optional> <string> <vector> <Eigen/Geometry>)
 
-# The same for what compiles quickly (quick_to_compile.cmake). CLI11 costs the commands most.
+# The desk tools' commands read their arguments and call libraries, so -O1 is enough for them, and for the library that
+# does what they share. CLI11 costs them most.
 find_package(CLI11 REQUIRED)
+set(COMMAND_OPTIONS $<$<CONFIG:Release>:-O1>)
 add_library(godobject_precompiled_commands OBJECT "${CMAKE_CURRENT_BINARY_DIR}/precompiled.cc")
 target_link_libraries(godobject_precompiled_commands PRIVATE godobject_core CLI11::CLI11 godobject_warnings)
-target_compile_options(godobject_precompiled_commands PRIVATE ${QUICK_TO_COMPILE})
+target_compile_options(godobject_precompiled_commands PRIVATE ${COMMAND_OPTIONS})
 target_precompile_headers(godobject_precompiled_commands PRIVATE
   <algorithm> <filesystem> <functional> <optional> <string> <vector> <CLI/CLI.hpp> <Eigen/Geometry>)
 
 # godobject_precompile_folder(FOLDER)
 # Gives a precompiled header to the targets of the folder and of the folders below it. Those of godobject_embedded are
-# compiled with other options, and three libraries do not link the core and Eigen. The desk tools' commands and the libraries
-# that leave long computing to others are compiled quickly.
+# compiled with other options, and three libraries do not link the core and Eigen.
 function(godobject_precompile_folder folder)
-  set(quick command_line files path figures replay_log query viewer study fault_table extremes work_precision assembly)
-  list(TRANSFORM quick PREPEND godobject_)
   set(tools "${PROJECT_SOURCE_DIR}/toolchain")
   cmake_path(IS_PREFIX tools "${folder}" NORMALIZE is_tool)
   get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)
     get_target_property(type ${target} TYPE)
     get_target_property(libraries ${target} LINK_LIBRARIES)
-    if(is_tool AND (type STREQUAL EXECUTABLE OR target IN_LIST quick))
-      target_compile_options(${target} PRIVATE ${QUICK_TO_COMPILE})
+    if(target STREQUAL godobject_command_line OR (is_tool AND type STREQUAL EXECUTABLE))
+      target_compile_options(${target} PRIVATE ${COMMAND_OPTIONS})
       target_precompile_headers(${target} REUSE_FROM godobject_precompiled_commands)
     elseif(type MATCHES "STATIC_LIBRARY|EXECUTABLE" AND NOT "godobject_embedded" IN_LIST libraries
        AND NOT target MATCHES "^godobject_(parallel|statistics|timing)$")

@@ -102,10 +102,10 @@ ReplayLog read_replay_log(const std::filesystem::path& file) {
 }
 
 const ReplayRow& row_at(const ReplayLog& log, double t, const std::filesystem::path& file) {
-  constexpr double kCycle = 1e-3;
+  constexpr double kNear = 1e-3;  // [s]
   const double begin = log.front().t;
   const double end = log.back().t;
-  if (!(t >= begin - kCycle && t <= end + kCycle)) {
+  if (!(t >= begin - kNear && t <= end + kNear)) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}: no cycle at {} s; choose a time within {} .. {} s", file.string(), t, begin, end));
   }

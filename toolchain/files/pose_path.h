@@ -17,6 +17,6 @@ struct PosePath {
 
 /// Reads the columns `t,px,py,pz,qw,qx,qy,qz`. Throws Failure: kNoInput, or kBadData naming the line if t does not
 /// increase by `period` [s] within 10 %: rows are that far apart, whatever t says.
-PosePath read_pose_path(const std::filesystem::path& file, double period = 1e-3);
+PosePath read_pose_path(const std::filesystem::path& file, double period);
 
 }  // namespace godobject::files

@@ -20,7 +20,7 @@ const char* const kFooter = R"(Examples:
   godobject-path peg.keyframes.toml --shake 7 -o shaken.csv
 
 KEYFRAMES.toml:
-  period = 0.001               # optional: time between two poses [s], 0.000125 to 0.01
+  period = 0.001               # optional: time between two poses [s], 0.000125 to 0.01; as coupling.period of the scene
   pivot = [0, 0, 0]            # optional: point of the moving mesh (scaled, own frame) to which positions refer [m]
   [[keyframe]]                 # at least two
   t = 0.0                      # [s]

@@ -108,7 +108,7 @@ void choose_within_budget(const Options& options, CompileRequest& request) {
                                                     options.scene_file));
   }
   precision::Paths paths;
-  if (!options.path.empty()) paths.push_back(path::read_poses(options.path));
+  if (!options.path.empty()) paths.push_back(path::read_poses(options.path, config.settings.period));
   std::vector<precision::Variant> variants;
   for (std::uint32_t i = 0; i < format::kSolverCount; ++i) {
     const auto solver = static_cast<Solver>(i);

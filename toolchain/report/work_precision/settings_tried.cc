@@ -180,7 +180,7 @@ std::vector<TriedImage> tried_images(const ImageSetting& written, bool quick, bo
 
 CaseResult image_errors(const ImageTrial& trial) {
   const scene_compiler::SceneConfig config = scene_config(trial);
-  const std::vector<Pose> path = path::read_poses(path_file(trial));
+  const std::vector<Pose> path = path::read_poses(path_file(trial), config.settings.period);
   precision::Trial judge(config, {path}, trial.scene.judging);
   for (const bool friction : {false, true}) {
     const std::string key = fmt::format("{} reference, friction {}", trial.inputs, friction);
@@ -216,7 +216,7 @@ CaseResult image_costs(const ImageTrial& trial) {
   const scene_compiler::SceneConfig config = scene_config(trial);
   const std::vector<precision::Setting> tried = settings(trial, config);
   const files::SceneImage image = image_of(trial, config);
-  const precision::Paths paths{path::read_poses(path_file(trial))};
+  const precision::Paths paths{path::read_poses(path_file(trial), config.settings.period)};
   const std::size_t passes = trial.quick ? 3 : 5;
   const std::vector<precision::CycleCost> found = precision::costs_of(image.scene, tried, paths, passes);
   const std::vector<precision::CycleCost> again = precision::costs_of(image.scene, tried, paths, passes);
