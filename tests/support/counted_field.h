@@ -8,7 +8,7 @@
 
 namespace godobject::test {
 
-/// A field that counts its look-ups. Its clearance falls `slope` times as fast as that of the field.
+/// A field that counts its look-ups. It claims `slope` times the Lipschitz constant of the field.
 template <class Field>
 struct Counted {
   Field field;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 
 #include "core/device/dynamics.h"
@@ -77,6 +78,36 @@ TEST_F(GainCheckTest, RefusesJointsWhoseOwnFeedbackIsBeyondTheBoundary) {
   control = arm_.parameters;
   control.limit_stiffness[6] = 1e5;
   EXPECT_NE(refused(control).find("joint 7 has limit_stiffness"), std::string::npos) << refused(control);
+}
+
+/// The refusal tells the boundary of a joint's damping. Just above it is refused, just below it is not, on light
+/// joints, too, whose boundary is below 1 Nms/rad.
+TEST_F(GainCheckTest, RefusesADampingJustBeyondTheBoundaryThatItTells) {
+  const test::Arm arm = test::desktop6();
+  JointVector bent = JointVector::Zero();
+  bent.head<6>() << 0.0, 0.6, -0.2, 0.0, 0.0, 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int joint = 0; joint < arm.model.joint_count; ++joint) {
+    const auto refused = [&](double damping) -> std::string {
+      JointTorqueParameters control = arm.parameters;
+      control.limit_damping[joint] = control.limit_stiffness[joint] = 0.0;
+      control.null_damping[joint] = damping;
+      try {
+        require_stable_joints(arm.model, control, bent, timing_);
+      } catch (const command::Failure& failure) {
+        return failure.what();
+      }
+      return {};
+    };
+    const std::string words = "stable only below ";
+    const std::string told = refused(1e6);
+    ASSERT_NE(told.find(words), std::string::npos) << joint;
+    const double boundary = std::stod(told.substr(told.find(words) + words.size()));
+    EXPECT_NE(refused(1.001 * boundary), "") << joint << ' ' << boundary;
+    EXPECT_EQ(refused(0.999 * boundary), "") << joint << ' ' << boundary;
+    least = std::min(least, boundary);
+  }
+  EXPECT_LT(least, 1.0);
 }
 
 /// A joint without any feedback of its own cannot lose its stability by it.

@@ -390,6 +390,7 @@ TEST_F(ControllerCommandTest, FindsTheBudgetInRealTime) {
     EXPECT_TRUE(code == 0 || is_busy) << code << words_;
     EXPECT_TRUE(says(fmt::format("budget: {} a cycle for the god object, ", time))) << words_;
     EXPECT_FALSE(says(": 0 cycles computed")) << "there is nothing to warn of: " << words_;
+    EXPECT_FALSE(says("godobject-controller: \n")) << "a warning without words: " << words_;
     EXPECT_GT(number("for the god object, ([0-9]+) units"), 0.0);
     EXPECT_EQ(number("they end [0-9]+ of ([0-9]+) cycles"), 401.0);
   }

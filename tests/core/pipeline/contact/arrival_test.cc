@@ -252,6 +252,31 @@ TEST(EndGaps, HaveTheEnergyOfAPointThatTurnsWithTheBody) {
   }
 }
 
+/// A point below its margin rises along the normal by less than the recovery of its row: the row promises the rise,
+/// which the steeper field shows as steepness times the rise. Nothing is lacking, so the energy is that of the rise
+/// alone.
+TEST(EndGaps, ExpectAsMuchDistanceAsTheFieldGrowsByTheRise) {
+  for (const double steepness : {1.0, 0.5, 2.0}) {
+    const ArrivalWorld world(steepness);
+    const double margin = world.scene.lengths.margin;
+    const double rise = 0.02 * margin;
+    Pose H0;
+    H0.translation.z() = 0.5 * margin / steepness;
+    Pose H1 = H0;
+    H1.translation.z() += rise;
+    ConstrainedStep step;
+    step.force_count = 1;
+    step.forces[0].id = 0;
+    step.forces[0].point = {0.01, 0.0, 0.0};
+    step.forces[0].normal = Vector3::UnitZ();
+    step.forces[0].multiplier = 2.0;
+    step.motion.translation.z() = rise;
+    const EndGaps gaps = end_gaps(world.scene, H0, H1, step, 1.0);
+    EXPECT_NEAR(gaps.energy, -2.0 * 2.0 * rise, 1e-6 * rise) << steepness;
+    EXPECT_NEAR(gaps.most, 0.0, 1e-6 * rise) << steepness;
+  }
+}
+
 /// The upper edge turns by an angle t about a line along the lower one, c above it. The holding place slides along the
 /// upper edge, whose distance to the line stays L - c: the gap grows by c (cos t - 1). The row knows the displacement
 /// of the body's origin, which lies on the edge: (L - c) (cos t - 1).

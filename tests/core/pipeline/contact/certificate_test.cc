@@ -40,7 +40,7 @@ struct Wire {
 
 /// A field that counts its look-ups. `proves`: the bits that the kernel for whole chords returns. The kernel expects
 /// the field's values at the start of each chord.
-struct Counted {
+struct CheckedField {
   AnalyticField field;
   std::uint64_t proves = 0;
   mutable int looks = 0;
@@ -86,7 +86,7 @@ double least_on_chord(const Shape& shape, const Vector3& p0, const Vector3& p1, 
 template <class Shape>
 void expect_chords_as_sampled(const Shape& shape, unsigned seed) {
   Random random(seed);
-  const Counted field{AnalyticField(shape, kCertificateVoxel)};
+  const CheckedField field{AnalyticField(shape, kCertificateVoxel)};
   int free = 0, blocked = 0, exhausted = 0;
   for (int trial = 0; trial < 1500; ++trial) {
     const double size = std::pow(10.0, random.between(-4.0, -1.5));
@@ -203,7 +203,7 @@ Chord chord_of(const NearPoints& near, std::uint32_t k, const Pose& H0, const Po
 template <class Shape>
 void expect_motions_as_sampled(const Shape& shape, unsigned seed) {
   Random random(seed);
-  const Counted field{AnalyticField(shape, kCertificateVoxel)};
+  const CheckedField field{AnalyticField(shape, kCertificateVoxel)};
   int held = 0, failed = 0, by_gap = 0;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<Vector3> points(static_cast<std::size_t>(random.integer(0, trial % 5 == 0 ? 200 : 8)));
@@ -271,7 +271,7 @@ TEST(Certificate, HoldsAsDenseSamplesTellOfABall) { expect_motions_as_sampled(Ba
 /// Any point may be the suspect: the answer is the same, since the others are tested, too.
 TEST(Certificate, HoldsWhateverPointIsTheSuspect) {
   Random random(15);
-  const Counted field{AnalyticField(Plate{1e-4}, kCertificateVoxel)};
+  const CheckedField field{AnalyticField(Plate{1e-4}, kCertificateVoxel)};
   int held = 0, failed = 0;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<Vector3> points(static_cast<std::size_t>(random.integer(1, 150)));
@@ -375,7 +375,7 @@ TEST(Certificate, ProvesNothingOnceTheBudgetIsSpent) {
 
 TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
   Random random(16);
-  const Counted field{AnalyticField(HalfSpace{}, kCertificateVoxel)};
+  const CheckedField field{AnalyticField(HalfSpace{}, kCertificateVoxel)};
   std::vector<Vector3> points(200);
   for (Vector3& p : points) p = random.in_cube(0.001) + Vector3(0.0, 0.0, 0.003);
   const auto near = near_points(field.field, points, Pose{});
@@ -437,7 +437,7 @@ TEST(Certificate, ComparesNumbersAlsoBehindTheLastChord) {
 
 /// A chord that the field's kernel proves free needs no ball; but the gap at its end counts all the same.
 TEST(Certificate, TakesTheKernelsWordForChordsAndLooksAtTheGapItself) {
-  Counted field{AnalyticField(HalfSpace{}, kCertificateVoxel)};
+  CheckedField field{AnalyticField(HalfSpace{}, kCertificateVoxel)};
   const std::vector<Vector3> points = {{0.0, 0.0, 1e-4}};
   const auto near = near_points(field.field, points, Pose{});
   Pose along, down;

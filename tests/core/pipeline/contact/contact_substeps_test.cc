@@ -827,6 +827,44 @@ TEST(ContactSubsteps, LetAFreeBodyGoWhoseFirstSearchTookSeveralCycles) {
   }
 }
 
+/// A budget of work ends cycles among the feature points, after a choice among the near sample points. The next cycle
+/// goes on with the feature points: it does not choose again, so that no point is counted twice.
+TEST(ContactSubsteps, ChooseOnceAmongThePointsOfASearchThatTakesSeveralCycles) {
+  const AnalyticField field(HalfSpace{Vector3::UnitZ(), 0.0}, kSubstepVoxel);
+  const SampledBody body = box_body(9);
+  const SampledBody features = box_body(21);
+  const Pointshell shell = body.pointshell();
+  /// Returns the most points that a cycle of 20 left out.
+  const auto left_out = [&](std::uint64_t budget) {
+    Parameters q;
+    q.mass = body.mass;
+    q.voxel_size = kSubstepVoxel;
+    q.margin = kSubstepMargin;
+    q.point_budget = 20;
+    q.work_budget = budget;
+    const ContactScene<AnalyticField, AnalyticField> scene(field, shell,
+                                                           {&field, features.pointshell(), Vector3::Zero(), 0.05}, q);
+    const auto memory = std::make_unique<ContactMemory>();
+    std::vector<std::uint32_t> words(ContactSearch::memory(shell, features.pointshell()));
+    memory->search.start(scene, words);
+    ProxyState state;
+    CycleReport report;
+    CycleInput input;
+    state.H_WS = input.H_WD = memory->H_WD_last = pose_at({0.0, 0.0, 0.015 + 1.5 * kSubstepMargin});
+    std::uint32_t most = 0;
+    for (int cycle = 0; cycle < 20; ++cycle) {
+      EXPECT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
+      most = std::max(most, report.dropped);
+    }
+    return most;
+  };
+  const std::uint32_t of_bottom = 9 * 9;
+  for (const std::uint64_t budget : {10000u, 20000u, 30000u, 40000u}) {
+    EXPECT_GT(left_out(budget), of_bottom / 2) << budget;
+    EXPECT_LE(left_out(budget), of_bottom) << budget;
+  }
+}
+
 /// The search radius grows if the first sub-step takes less than half of the budget, however much the others take.
 TEST(ContactSubsteps, LearnTheSearchRadiusFromTheFirstSubstep) {
   const AnalyticField field(HalfSpace{Vector3::UnitZ(), 0.0}, kSubstepVoxel);

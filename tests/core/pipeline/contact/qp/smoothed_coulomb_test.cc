@@ -416,7 +416,8 @@ TEST(SolveSmoothedPoint, MeetsARowThatFindsNoPlaceOrFails) {
     set.close_all();
     if (HasFailure()) FAIL() << "problem " << trial;
   }
-  std::printf("[ measured ] %d of 300 have no solution\n", failed);
+  std::printf("[ measured ] %d of 300 not solved\n", failed);
+  EXPECT_LT(failed, 200);
 }
 
 /// The motion of the set counts in its metric, which a failure must leave alone, too.
