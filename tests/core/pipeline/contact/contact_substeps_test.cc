@@ -1322,8 +1322,9 @@ TEST(ContactSubsteps, DoNotCrossEdgePairsThatFindNoPlace) {
     for (int cycle = 0; cycle < 3; ++cycle) {
       ASSERT_EQ(run.step(pose_at({0.0, 0.0, -1e-3})), Status::kOk);
       EXPECT_GE(run.report.dropped, kEdges * kEdges - NearEdges::kCapacity) << low << ' ' << cycle;
-      const Vector3 from = run.state.H_WS * along_y[low].first;
-      const Vector3 along = run.state.H_WS * along_y[low].second - from;
+      const auto& [first, second] = along_y[static_cast<std::size_t>(low)];
+      const Vector3 from = run.state.H_WS * first;
+      const Vector3 along = run.state.H_WS * second - from;
       for (const auto& [left, right] : along_x) {
         const double height = from.z() + (left.y() - from.y()) / along.y() * along.z();
         EXPECT_GT(height, 0.0) << low << ' ' << cycle << ' ' << left.y();
