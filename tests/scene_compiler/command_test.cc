@@ -281,7 +281,7 @@ TEST(Command, TriesMotionsOfThePeriodOfTheScene) {
   const std::string poses =
       "[[keyframe]]\nt = 0\nposition = [0, 0, 0.1]\n[[keyframe]]\nt = 1\nposition = [0, 0, 0.07]\n";
   const Outcome keyframes = with(folder.write("fast.toml", poses));
-  EXPECT_EQ(keyframes.exit_code, 65) << keyframes.output;
+  EXPECT_EQ(keyframes.exit_code, 78) << keyframes.output;
   EXPECT_NE(keyframes.output.find("set period = 0.004"), std::string::npos) << keyframes.output;
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.scene")));
   EXPECT_EQ(with(folder.write("slow.csv", pressed_cube(0.004))).exit_code, 0);
