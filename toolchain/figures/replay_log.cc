@@ -102,7 +102,7 @@ ReplayLog read_replay_log(const std::filesystem::path& file) {
 }
 
 const ReplayRow& row_at(const ReplayLog& log, double t, const std::filesystem::path& file) {
-  constexpr double kNear = 1e-3;  // [s]
+  constexpr double kNear = 1e-3;  // a moment may lie this far outside of the log, chosen [s]
   const double begin = log.front().t;
   const double end = log.back().t;
   if (!(t >= begin - kNear && t <= end + kNear)) {

@@ -193,7 +193,7 @@ TEST_F(CycleRecordTest, CountsCyclesWhoseFrictionDoesNotConverge) {
   EXPECT_EQ(counters().unconverged, 0u);
   press(0.033);
   EXPECT_GT(counters().unconverged, 0u);
-  EXPECT_LT(counters().unconverged, 230u) << "the cycles of the press";
+  EXPECT_LT(counters().unconverged, 230u) << "press takes 230 cycles";
 }
 
 /// A cycle that finds a fault renders nothing, whatever it has computed before.

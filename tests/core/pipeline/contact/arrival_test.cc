@@ -115,6 +115,17 @@ struct ArrivalWorld {
   ContactScene<test::AnalyticField, test::AnalyticField> scene{
       floor, shell, {&floor, tip.pointshell(), origin_W, 0.05}, parameters, {moving.view(), still.view()}};
 
+  /// A step with a force on the sample point, along the floor's normal.
+  static ConstrainedStep step_of_point(const Motion& motion) {
+    ConstrainedStep step;
+    step.force_count = 1;
+    step.forces[0].id = 0;
+    step.forces[0].point = {0.01, 0.0, 0.0};
+    step.forces[0].normal = Vector3::UnitZ();
+    step.forces[0].multiplier = 2.0;
+    step.motion = motion;
+    return step;
+  }
   /// A pose that is turned by a right angle about an axis.
   static Pose turned(const Vector3& axis, const Vector3& position) {
     Pose pose;
@@ -230,13 +241,7 @@ void expect_energy_of_a_turned_point(double steepness, double angle, double rise
   Pose H1 = H0;
   H1.translation.z() += rise;
   H1.rotation = exp_rotation({0.0, angle, 0.0});
-  ConstrainedStep step;
-  step.force_count = 1;
-  step.forces[0].id = 0;
-  step.forces[0].point = {0.01, 0.0, 0.0};
-  step.forces[0].normal = Vector3::UnitZ();
-  step.forces[0].multiplier = 2.0;
-  step.motion = {{0.0, 0.0, rise}, {0.0, angle, 0.0}};
+  const ConstrainedStep step = ArrivalWorld::step_of_point({{0.0, 0.0, rise}, {0.0, angle, 0.0}});
   const double height = H0.translation.z() + rise - 0.01 * std::sin(angle);
   const double increase = rise - 0.01 * angle;
   EXPECT_NEAR(end_gaps(world.scene, H0, H1, step, 1.0).energy, 2.0 * 2.0 * (margin / steepness - height - increase),
@@ -252,9 +257,8 @@ TEST(EndGaps, HaveTheEnergyOfAPointThatTurnsWithTheBody) {
   }
 }
 
-/// A point below its margin rises along the normal by less than the recovery of its row: the row promises the rise,
-/// which the steeper field shows as steepness times the rise. Nothing is lacking, so the energy is that of the rise
-/// alone.
+/// A point below its margin rises by less than its row may regain. The distance in the field grows by steepness times
+/// the rise, as the row promises. Nothing is lacking at the end, so that the energy is that of the rise alone.
 TEST(EndGaps, ExpectAsMuchDistanceAsTheFieldGrowsByTheRise) {
   for (const double steepness : {1.0, 0.5, 2.0}) {
     const ArrivalWorld world(steepness);
@@ -264,13 +268,7 @@ TEST(EndGaps, ExpectAsMuchDistanceAsTheFieldGrowsByTheRise) {
     H0.translation.z() = 0.5 * margin / steepness;
     Pose H1 = H0;
     H1.translation.z() += rise;
-    ConstrainedStep step;
-    step.force_count = 1;
-    step.forces[0].id = 0;
-    step.forces[0].point = {0.01, 0.0, 0.0};
-    step.forces[0].normal = Vector3::UnitZ();
-    step.forces[0].multiplier = 2.0;
-    step.motion.translation.z() = rise;
+    const ConstrainedStep step = ArrivalWorld::step_of_point({{0.0, 0.0, rise}, Vector3::Zero()});
     const EndGaps gaps = end_gaps(world.scene, H0, H1, step, 1.0);
     EXPECT_NEAR(gaps.energy, -2.0 * 2.0 * rise, 1e-6 * rise) << steepness;
     EXPECT_NEAR(gaps.most, 0.0, 1e-6 * rise) << steepness;

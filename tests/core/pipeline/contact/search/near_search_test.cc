@@ -180,7 +180,7 @@ TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
 TEST(NearSearch, KeepsItsBudgetNearestFirst) {
   const SceneImage image = ball_over_plate();
   const SceneView scene = open_scene(image);
-  const Counted field{scene.voxelmap};
+  const Counted<Voxelmap> field{scene.voxelmap};
   const Pointshell& shell = scene.pointshell;
   const double longest = field.assured_clearance();
   std::vector<std::uint32_t> memory(NearSearch::memory(shell));
@@ -230,7 +230,7 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
 TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
   const SceneImage image = ball_over_plate();
   const SceneView scene = open_scene(image);
-  const Counted field{scene.voxelmap};
+  const Counted<Voxelmap> field{scene.voxelmap};
   std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch search;
   const double longest = field.assured_clearance();
