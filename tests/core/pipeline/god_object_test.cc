@@ -398,7 +398,8 @@ TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudget) {
   EXPECT_LT((few_report.H_WS.translation - all_report.H_WS.translation).norm(), 2e-5) << "differs by a margin";
 }
 
-/// A budget of work only makes the god object lag. With 1 unit it never moves; without one it catches up.
+/// A budget of work only makes the god object lag. With 1 unit it moves as far as it is known to be free; without one
+/// it catches up.
 TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudgetOfWork) {
   for (const std::uint64_t budget : {1u, 3000u, 10000u, 20000u, 40000u}) {
     OwnedGodObject god_object, all;
@@ -411,6 +412,7 @@ TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudgetOfWork) {
     god_object->set_work_budget(budget);
     int ended_by_budget = 0;
     double before = 0.0;
+    Vector3 last = start.translation;
     for (int k = 0; k < 2000; ++k) {
       const double way = 1e-5 * std::min(k, 1500);
       const GodObject::Input input{mesh_pose({way, 0.5 * way, height + 0.002 - 0.7 * way}), Motion{}};
@@ -423,11 +425,16 @@ TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudgetOfWork) {
       const double force = report.force.total_W.force.norm();
       ASSERT_LT(std::fabs(force - before), 0.5) << budget << ", cycle " << k;
       before = force;
+      const Vector3 here = god_object->mesh_pose().translation;
       if (budget == 1) {
-        ASSERT_TRUE(report.out_of_work);
-        ASSERT_EQ(report.outcome, Outcome::kCut);
-        ASSERT_EQ(god_object->mesh_pose().translation, start.translation);
+        // it moves as far as the first search proves free, and then stays
+        ASSERT_TRUE(report.out_of_work || ended_by_budget == 0) << "cycle " << k;
+        if (report.out_of_work) {
+          ASSERT_EQ(report.outcome, Outcome::kCut);
+          ASSERT_EQ(here, last);
+        }
       }
+      last = here;
     }
     EXPECT_GT(ended_by_budget, budget <= 10000 ? 100 : 0) << budget;
     god_object->set_work_budget(WorkMeter::kUnlimited);
@@ -469,7 +476,8 @@ TEST_F(GodObjectTest, KeepsToTheBudgetOfWorkFromTheFirstCycleOn) {
           EXPECT_EQ(god_object->mesh_pose().translation, device(0).translation) << "it stays until then";
         }
       }
-      EXPECT_EQ(unknown, budget == 5000u    ? 3
+      EXPECT_GE(unknown, budget == 5000u ? 3 : 0) << "the budget does not end the first search";
+      EXPECT_LE(unknown, budget == 5000u    ? 3
                          : budget == 16000u ? 1
                                             : 0)
           << "cycles without force though the device moves";

@@ -9,7 +9,7 @@
 #include <limits>
 #include <span>
 
-#include "core/pipeline/contact/search/due_calendar.h"
+#include "core/pipeline/contact/search/front.h"
 #include "core/pipeline/contact/search/odometer.h"
 #include "core/pipeline/contact/search/point_budget.h"
 #include "core/pipeline/cycle/work.h"
@@ -21,39 +21,41 @@
 namespace godobject {
 
 /// Step #1 of `contact`: finds the near points of a shell, those whose clearance in a field is below a search radius.
-/// With memory it looks up a node of the sphere tree, or a point, only when the motion since the last look-up could
-/// have made it near. So the cost of a cycle depends on the number of near items; the result does not depend on the
-/// memory.
+/// With memory it looks up a node of the sphere tree, or a point, only when it may have left the free ball of its last
+/// look-up. So the cost of a cycle depends on the number of items that move far, compared with their clearance, and a
+/// little on that of the others in the front; the result does not depend on the memory.
 ///
-/// **Bound.** Let C = clearance(c), and let x be a point that was within r of c before the body travelled by t; then
-/// |x - c| <= r + t. The field guarantees (DistanceField) that
-///     clearance(x) >= min((C - r - t) / L, A),   L = lipschitz(), A = assured_clearance().
-/// So for any search radius R <= A, x is not near while the present travelled + L R is at most
-///     travelled + C - r   at the time of the look-up,
-/// where `travelled` is the odometer's reading. Until then neither the node nor the point is looked up again. Where x
-/// may be displaced by f >= 1 times the odometer's difference, C - r is divided by f, since L R >= L R / f.
+/// **Bound.** Let C = clearance(c) at the centre c of an item of radius r (a point: r = 0), let c' be where that centre
+/// is now, and x a point of the item; then |x - c| <= r + |c' - c|. The field guarantees (DistanceField) that
+///     clearance(x) >= min((C - r - |c' - c|) / L, A),   L = lipschitz(), A = assured_clearance().
+/// So for any search radius R <= A, x is not near while C - r - |c' - c| >= L R. Front compares C - r with |c' - c|.
+/// Between two comparisons |c' - c| grows by at most f t, where t is the difference of the odometer's readings and f >=
+/// 1 the item's pace. So nothing is near while the present travelled + L R is at most
+///     travelled + (C - r - |c' - c|) / f   at the comparison,
+/// where `travelled` is the odometer's reading, since L R >= L R / f. Until then the item is not compared either.
 ///
-/// Due items are looked up in batches (DistanceField::clearances, which returns C as the bound requires). A node that
-/// may be near is replaced by its children, and replaces them once they are far. Points that may be near are looked up
-/// exactly (DistanceField::samples) within the point budget, and again in every cycle as long as they would be due at
-/// once.
+/// Items that may be near are looked up in batches (DistanceField::clearances, which returns C as the bound requires).
+/// A node that may be near is replaced by its children, and replaces them once they are far. Points that may be near
+/// are looked up exactly (DistanceField::samples) within the point budget, and again in every cycle as long as they
+/// would be found at once.
 class NearSearch {
  public:
   /// Returns the size of the memory for this shell [32-bit words].
-  static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell) + shell.size; }
+  static std::size_t memory(const Pointshell& shell) noexcept { return Front::memory(shell) + shell.size; }
 
   /// Forgets all and starts. `words`: memory(shell) words that outlive the search; with none, every cycle visits the
   /// tree from its root. `slope`: the field's lipschitz(); `longest`: largest search radius, at most the field's
   /// assured clearance [m].
   void start(std::span<std::uint32_t> words, const Pointshell& shell, double slope, double longest) noexcept {
+    *this = NearSearch{};
     slope_ = slope;
-    tick_ = longest / kTicks;
+    ahead_ = kAhead * longest;
     words_ = words;
     certain_ = 0.0;
     if (words_.empty()) return;
-    const std::size_t of_calendar = DueCalendar::memory(shell);
-    calendar_.start(words_.first(of_calendar), shell);
-    bounds_ = words_.subspan(of_calendar, shell.size);
+    const std::size_t of_front = Front::memory(shell);
+    front_.start(words_.first(of_front), shell);
+    bounds_ = words_.subspan(of_front, shell.size);
   }
 
   /// Starts without a shell: no point is ever near.
@@ -89,9 +91,8 @@ class NearSearch {
   bool find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double travelled,
             double radius, const PointBudget& budget, WorkMeter& work, Visit&& visit, LeaveOut&& leave_out,
             bool goes_on = false) noexcept {
-    const Look<Direction, Field> look{
-        direction, field, shell, H, H.rotation.toRotationMatrix(), travelled, travelled + slope_ * radius,
-        radius,    work};
+    const Look<Direction, Field> look{direction, field,           shell,  H,   H.rotation.toRotationMatrix(),
+                                      travelled, slope_ * radius, radius, work};
     certain_ = 0.0;
     if (!goes_on) next_ = 0;
     if (words_.empty()) {
@@ -101,7 +102,7 @@ class NearSearch {
     } else {
       was_complete_ = DuePass<Direction, Field>(*this, look).run(budget, visit, leave_out);
       if (!was_complete_) return false;
-      certain_ = tick_ * static_cast<double>(calendar_.certain());
+      certain_ = front_.certain();
     }
     return true;
   }
@@ -115,12 +116,11 @@ class NearSearch {
  private:
   static constexpr std::uint32_t kNotInOrder = ~0u;
   static constexpr double kNever = std::numeric_limits<double>::infinity();
-  static constexpr double kTicks = 64.0;          ///< of the calendar in the longest search radius
   static constexpr double kFieldRounding = 1e-5;  ///< of stored distances [voxels]
-  static constexpr double kAhead = 0.25 * kTicks;
-  static constexpr double kOpen = 0.125;  ///< a node less than this many radii away is opened
-  static constexpr double kLeave = 3.0;   ///< once children are this many of its radii away, their parent replaces them
-  static constexpr double kMostTicks = 1e18;
+  static constexpr double kAhead = 0.25;          ///< of the longest search radius
+  static constexpr double kAgain = 1.0 + 1e-5;    ///< derived: more than the roundings of a scan to single precision
+  static constexpr double kOpen = 0.125;          ///< a node less than this many radii away is opened
+  static constexpr double kLeave = 3.0;  ///< once children are this many of its radii away, their parent replaces them
 
   using Indices = std::array<std::uint32_t, SampleBatch::kCapacity>;  ///< numbers of a batch's points
 
@@ -133,24 +133,26 @@ class NearSearch {
     const Pose& H;
     const Matrix3 R;
     double travelled;
-    double horizon;  ///< travelled + L radius: items that are free until less than this may be near [m]
+    double reach;  ///< L radius: an item in a ball of at least this is not near [m]
     double radius;
     WorkMeter& work;
 
     /// Returns the rounding of stored distances [m].
     double rounding() const noexcept { return kFieldRounding * field.voxel_size(); }
 
-    /// Returns the odometer's reading until which no point within `item_radius` of `center` (in the shell's frame) is
-    /// near, from the clearance there [m].
-    double free_until(double clearance, const Vector3& center, double item_radius) const noexcept {
+    /// Returns the ball of an item from the clearance at its centre (in the shell's frame) [m].
+    Front::Ball ball(double clearance, const Vector3& center, double item_radius) const noexcept {
       const double room = clearance - item_radius - rounding();
       if constexpr (Direction::kStretches) {
-        const double lever = direction.lever(R * center + H.translation) + item_radius + std::max(0.0, room);
-        return travelled + room / direction.stretch(lever);
+        const double lever = direction.lever(R * center + H.translation) + std::max(0.0, room);
+        return {room, 1.0 / direction.stretch(lever)};
       } else {
-        return travelled + room;
+        return {room, 1.0};
       }
     }
+
+    /// Returns the odometer's reading until which an item stays in its ball [m].
+    double free_until(const Front::Ball& ball) const noexcept { return travelled + ball.radius * ball.per_pace; }
 
     /// Visits the near points of a batch; returns their bit mask.
     template <class Visit>
@@ -175,7 +177,7 @@ class NearSearch {
       const std::uint64_t near = look.visit_near(samples, index, visit);
       if (near != 0) least = std::min(least, look.travelled);
       for_each_bit(first_bits(samples.count) & ~near, [&](std::uint32_t k) noexcept {
-        least = std::min(least, look.free_until(samples.clearance[k], shell.point(index[k]), 0.0));
+        least = std::min(least, look.free_until(look.ball(samples.clearance[k], shell.point(index[k]), 0.0)));
       });
       samples.count = 0;
     };
@@ -185,9 +187,9 @@ class NearSearch {
       const Vector3 center = center_of(node);
       look.work.add(Work::kBall);
       const double clearance = look.field.sample(look.R * center + look.H.translation).clearance;
-      const double until = look.free_until(clearance, center, radius_of(node));
-      if (until >= look.horizon) {
-        least = std::min(least, until);
+      const Front::Ball ball = look.ball(clearance, center, radius_of(node));
+      if (ball.radius * ball.per_pace >= look.reach) {
+        least = std::min(least, look.free_until(ball));
         n = node.skip;
       } else if (node.leaf != 0) {
         for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
@@ -213,122 +215,167 @@ class NearSearch {
    public:
     DuePass(NearSearch& search, const Look<Direction, Field>& look) noexcept
         : search_(search),
-          calendar_(search.calendar_),
+          front_(search.front_),
           look_(look),
-          per_tick_(1.0 / search.tick_),
+          place_(front_.place(look.R, look.H.translation)),
+          enough_(kAgain * look.reach + 4.0 * static_cast<double>(place_.rounding)),
           node_count_(static_cast<std::uint32_t>(look.shell.nodes.size())) {}
 
     /// False: the budget of work was spent.
     template <class Visit, class LeaveOut>
     bool run(const PointBudget& budget, Visit& visit, LeaveOut& leave_out) noexcept {
-      const bool has_all = look_at_due() && (calendar_.marked() <= budget.points || bound_marked()) &&
+      const bool has_all = look_at_due() && (front_.marked() <= budget.points || bound_marked()) &&
                            look_up_marked(budget, visit, leave_out);
       replace_children();
+      look_.work.add(Work::kScan, front_.block_count());  // counted last: each call with room for a look-up goes on
       return has_all;
     }
 
    private:
-    // Rounded down, so that items are due slightly early. Converted as a signed number, which takes one instruction.
-    std::uint64_t tick_of(double until) const noexcept {
-      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(until * per_tick_, 0.0, kMostTicks)));
+    /// Tells whether an item may stay in the front: it is not near, and a scan at this pose does not find it again.
+    bool may_stay(const Front::Ball& ball, double item_radius) const noexcept {
+      return ball.radius * ball.per_pace > enough_ + kOpen * item_radius;
     }
 
-    /// Files item `i`, which is free until this reading of the odometer.
-    void file(std::uint32_t i, double until) noexcept {
-      calendar_.file(i, tick_of(until));
-      const std::uint32_t parent = calendar_.parent_of(i);
-      if (parent == DueCalendar::kNone) return;
-      const double enough = kLeave * static_cast<double>(calendar_.sphere_of(parent).radius);
-      if (until - look_.horizon > enough && replacing_ != parent) calendar_.push(replacing_, parent);
+    /// Notes the node above an item if the item is so far that the node may replace its children.
+    void note_parent(std::uint32_t i, const Front::Ball& ball) noexcept {
+      const std::uint32_t parent = front_.parent_of(i);
+      if (parent == Front::kNone) return;
+      const double enough = kLeave * static_cast<double>(look_.shell.nodes[parent].radius);
+      if (ball.radius - look_.reach > enough) front_.push(replacing_, parent);
     }
 
-    /// Adds an item to the batch of bounds.
-    void add(std::uint32_t i) noexcept {
-      const std::uint32_t k = batch_.count;
-      const DueCalendar::Sphere sphere = calendar_.sphere_of(i);
-      item_[k] = i;
+    void insert(std::uint32_t i, const Front::Ball& ball) noexcept {
+      front_.insert(i, place_, ball, look_.free_until(ball));
+      note_parent(i, ball);
+    }
+
+    /// Adds the sphere of an item to the batch of bounds. `at`: the item, or its slot in the front.
+    void add(std::uint32_t at, const Front::Sphere& sphere) noexcept {
+      const std::uint32_t k = batch_.count++;
+      item_[k] = at;
       batch_.x[k] = sphere.x;
       batch_.y[k] = sphere.y;
       batch_.z[k] = sphere.z;
       radius_[k] = sphere.radius;
-      batch_.count = k + 1;
+    }
+
+    /// Returns the ball of item `k` of the batch.
+    Front::Ball ball_of(std::uint32_t k) const noexcept {
+      const Vector3 center(static_cast<double>(batch_.x[k]), static_cast<double>(batch_.y[k]),
+                           static_cast<double>(batch_.z[k]));
+      return look_.ball(static_cast<double>(batch_.clearance[k]), center, static_cast<double>(radius_[k]));
+    }
+
+    void look_up_batch() noexcept {
+      look_.work.add(kind_, batch_.count);
+      look_.field.clearances(look_.H, batch_);
+    }
+
+    void mark(std::uint32_t point, std::uint32_t k) noexcept {
+      front_.mark(point);
+      search_.bounds_[point] = std::bit_cast<std::uint32_t>(batch_.clearance[k]);
+    }
+
+    /// Looks up the batch's slots of the front: renews the balls of far items, chains the others.
+    void renew_slots() noexcept {
+      if (batch_.count == 0) return;
+      look_up_batch();
+      for (std::uint32_t k = 0; k < batch_.count; ++k) {
+        const Front::Ball ball = ball_of(k);
+        const std::uint32_t i = front_.item_in(item_[k]);
+        if (may_stay(ball, static_cast<double>(radius_[k]))) {
+          front_.renew(item_[k], place_, ball, look_.free_until(ball));
+          note_parent(i, ball);
+        } else if (i < node_count_) {
+          front_.push(leaving_, i);
+        } else {
+          mark(i - node_count_, k);
+        }
+      }
+      batch_.count = 0;
+    }
+
+    /// Looks up the batch's items, which are not in the front: inserts far items, opens the other nodes, marks the
+    /// other points.
+    void flush() noexcept {
+      if (batch_.count == 0) return;
+      look_up_batch();
+      for (std::uint32_t k = 0; k < batch_.count; ++k) {
+        const std::uint32_t i = item_[k];
+        const Front::Ball ball = ball_of(k);
+        if (may_stay(ball, static_cast<double>(radius_[k]))) {
+          insert(i, ball);
+        } else if (i < node_count_) {
+          front_.push(opened_, i);
+        } else {
+          mark(i - node_count_, k);
+        }
+      }
+      batch_.count = 0;
+    }
+
+    void add_item(std::uint32_t i) noexcept {
+      add(i, front_.sphere_of(i));
       if (batch_.count == PointBatch::kCapacity) flush();
     }
 
-    /// Returns the reading until which item `k` of the batch is free.
-    double until_of(std::uint32_t k) const noexcept {
-      const Vector3 center(static_cast<double>(batch_.x[k]), static_cast<double>(batch_.y[k]),
-                           static_cast<double>(batch_.z[k]));
-      return look_.free_until(static_cast<double>(batch_.clearance[k]), center, static_cast<double>(radius_[k]));
-    }
-
-    /// Looks up the batch's bounds: files the far items, opens the other nodes, marks the other points.
-    void flush() noexcept {
-      look_.work.add(kind_, batch_.count);
-      look_.field.clearances(look_.H, batch_);
-      for (std::uint32_t k = 0; k < batch_.count; ++k) {
-        const std::uint32_t i = item_[k];
-        const double until = until_of(k);
-        if (until >= look_.horizon + kOpen * static_cast<double>(radius_[k]) && !is_due_again(until)) {
-          file(i, until);
-        } else if (i < node_count_) {
-          calendar_.push(opened_, i);
-        } else {
-          calendar_.mark(i - node_count_);
-          search_.bounds_[i - node_count_] = std::bit_cast<std::uint32_t>(batch_.clearance[k]);
-        }
+    /// Compares the front with its balls. False: the budget of work was spent.
+    bool scan() noexcept {
+      // Without marked points, items that are due soon are looked up early: then most cycles of free motion need no
+      // look-up. Not after a search that the budget ended: it would look at the same ones again.
+      const double ahead = front_.marked() == 0 && search_.was_complete_ ? search_.ahead_ : 0.0;
+      const auto visit = [this](std::uint32_t slot) noexcept {
+        add(slot, front_.sphere_in(slot));
+        if (batch_.count == PointBatch::kCapacity) renew_slots();
+      };
+      const auto go_on = [this](std::uint32_t blocks) noexcept {
+        if (look_.work.is_spent()) return false;
+        look_.work.add(Work::kBlock, blocks);
+        return true;
+      };
+      const bool all = front_.scan(place_, look_.travelled, look_.reach + ahead, visit, go_on);
+      renew_slots();
+      while (leaving_ != Front::kNone) {
+        const std::uint32_t i = front_.pop(leaving_);
+        front_.remove(i);
+        front_.push(opened_, i);
       }
-      batch_.count = 0;
-    }
-
-    /// Tells whether an item that is free until this reading would be due again in the next call at this pose, after
-    /// one that the budget ended. A call would look at the same items again and again.
-    bool is_due_again(double until) const noexcept {
-      return !search_.was_complete_ && tick_of(until) <= tick_of(look_.horizon);
+      return all;
     }
 
     bool look_at_due() noexcept {
-      const auto adder = [this](std::uint32_t i) noexcept { add(i); };
-      // Without marked points, items that are due soon are looked up early: then most cycles of free motion need no
-      // look-up. Not after a search that the budget ended: it would look at the same ones again.
-      const double ahead = calendar_.marked() == 0 && search_.was_complete_ ? kAhead * search_.tick_ : 0.0;
-      calendar_.take_due(tick_of(look_.horizon + ahead), adder, is_spent());
-      while (batch_.count > 0 || opened_ != DueCalendar::kNone) {
-        if (look_.work.is_spent()) {
+      const bool all = scan();
+      while (batch_.count > 0 || opened_ != Front::kNone) {
+        if (!all || look_.work.is_spent()) {
           put_back();
           return false;
         }
-        if (opened_ == DueCalendar::kNone) {
+        if (opened_ == Front::kNone) {
           flush();
         } else {
-          DueCalendar::for_each_child(look_.shell, calendar_.pop(opened_), adder);
+          Front::for_each_child(look_.shell, front_.pop(opened_), [this](std::uint32_t i) noexcept { add_item(i); });
         }
       }
-      return !look_.work.is_spent();
+      return all && !look_.work.is_spent();
     }
 
-    auto is_spent() const noexcept {
-      return [this]() noexcept { return batch_.count == 0 && look_.work.is_spent(); };
-    }
-
-    /// Files all items without a look-up: they are due at once. Of an opened node these are its children, so that each
-    /// call with room for a look-up goes on.
+    /// Inserts all items without a look-up: they are due at once. Of an opened node these are its children, so that
+    /// each call with room for a look-up goes on.
     void put_back() noexcept {
-      const auto file_due = [this](std::uint32_t i) noexcept { calendar_.file(i, 0); };
-      for (std::uint32_t k = 0; k < batch_.count; ++k) file_due(item_[k]);
+      const auto insert_due = [this](std::uint32_t i) noexcept { front_.insert_due(i); };
+      for (std::uint32_t k = 0; k < batch_.count; ++k) insert_due(item_[k]);
       batch_.count = 0;
-      while (opened_ != DueCalendar::kNone) {
-        DueCalendar::for_each_child(look_.shell, calendar_.pop(opened_), file_due);
-      }
+      while (opened_ != Front::kNone) Front::for_each_child(look_.shell, front_.pop(opened_), insert_due);
     }
 
     /// Looks up bounds at this pose for all marked points: the budget compares them. False: as `run`.
     bool bound_marked() noexcept {
       kind_ = Work::kPoint;  // every call does it again
-      const bool all = calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+      const bool all = front_.for_each_marked([&](std::uint32_t i) noexcept {
         if (look_.work.is_spent()) return false;
-        calendar_.unmark(i);
-        add(node_count_ + i);
+        front_.unmark(i);
+        add_item(node_count_ + i);
         return true;
       });
       flush();
@@ -342,18 +389,17 @@ class NearSearch {
       const auto look_up = [&](std::uint32_t i) noexcept {
         const std::uint32_t k = samples_.count;
         item_[k] = i;
-        const DueCalendar::Sphere point = calendar_.sphere_of(node_count_ + i);
-        samples_.x[k] = point.x;
-        samples_.y[k] = point.y;
-        samples_.z[k] = point.z;
+        samples_.x[k] = look_.shell.x[i];
+        samples_.y[k] = look_.shell.y[i];
+        samples_.z[k] = look_.shell.z[i];
         samples_.count = k + 1;
         if (samples_.count < SampleBatch::kCapacity) return true;
         sample(visit);
         return !look_.work.is_spent();
       };
       bool all = true;
-      if (calendar_.marked() <= budget.points) {
-        all = calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+      if (front_.marked() <= budget.points) {
+        all = front_.for_each_marked([&](std::uint32_t i) noexcept {
           if (i < search_.next_) return true;
           const bool goes_on = look_up(i);
           search_.next_ = i + 1;
@@ -361,10 +407,10 @@ class NearSearch {
         });
       } else {
         search_.next_ = kNotInOrder;
-        look_.work.add(Work::kScan, 3 * calendar_.marked());
+        look_.work.add(Work::kScan, 3 * front_.marked());
         detail::NearestFirst nearest(budget, static_cast<float>(look_.radius));
         const auto for_each_candidate = [&](const auto& visit_candidate) noexcept {
-          return calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+          return front_.for_each_marked([&](std::uint32_t i) noexcept {
             return !(static_cast<double>(bound(i)) < look_.radius) || visit_candidate(i);
           });
         };
@@ -383,64 +429,64 @@ class NearSearch {
       return all;
     }
 
-    /// Looks up the batch of points that may be near. Far points are filed again; points that are not near, but would
-    /// be due again at once, stay marked.
+    /// Looks up the batch of points that may be near. Far points return to the front; points that are not near, but
+    /// would be found again at this pose, stay marked.
     template <class Visit>
     void sample(Visit& visit) noexcept {
       look_.work.add(Work::kPoint, samples_.count);
       look_.field.samples(look_.H, samples_);
-      // for a stretch of 1
-      const double due_below = look_.horizon - look_.travelled + look_.rounding();
-      const std::uint64_t stays = look_.visit_near(samples_, item_, visit) | clearance_below(samples_, due_below);
+      const std::uint64_t stays =
+          look_.visit_near(samples_, item_, visit) | clearance_below(samples_, look_.reach + look_.rounding());
       for_each_bit(first_bits(samples_.count) & ~stays, [&](std::uint32_t k) noexcept {
         const Vector3 p(static_cast<double>(samples_.x[k]), static_cast<double>(samples_.y[k]),
                         static_cast<double>(samples_.z[k]));
-        const double until = look_.free_until(samples_.clearance[k], p, 0.0);
-        if (until < look_.horizon) return;
-        calendar_.unmark(item_[k]);
-        file(node_count_ + item_[k], until);
+        const Front::Ball ball = look_.ball(samples_.clearance[k], p, 0.0);
+        if (!may_stay(ball, 0.0)) return;
+        front_.unmark(item_[k]);
+        insert(node_count_ + item_[k], ball);
       });
       samples_.count = 0;
     }
 
-    /// Replaces children that are all filed and far by their node.
+    /// Replaces children that are all in the front and far by their node.
     void replace_children() noexcept {
-      while (replacing_ != DueCalendar::kNone) {
-        const std::uint32_t n = calendar_.pop(replacing_);
-        bool all = !calendar_.is_filed(n);
-        DueCalendar::for_each_child(look_.shell, n,
-                                    [&](std::uint32_t child) noexcept { all &= calendar_.is_filed(child); });
+      while (replacing_ != Front::kNone) {
+        const std::uint32_t n = front_.pop(replacing_);
+        bool all = !front_.has(n);
+        Front::for_each_child(look_.shell, n, [&](std::uint32_t child) noexcept { all &= front_.has(child); });
         if (!all || look_.work.is_spent()) continue;
         look_.work.add(Work::kItem, 8);  // a batch of one
-        add(n);
+        add(n, front_.sphere_of(n));
         look_.field.clearances(look_.H, batch_);
         batch_.count = 0;
-        const double until = until_of(0);
-        if (until - look_.horizon <= static_cast<double>(radius_[0])) continue;
-        DueCalendar::for_each_child(look_.shell, n, [&](std::uint32_t child) noexcept { calendar_.take(child); });
-        file(n, until);
+        const Front::Ball ball = ball_of(0);
+        if (!may_stay(ball, static_cast<double>(radius_[0]) / kOpen)) continue;
+        Front::for_each_child(look_.shell, n, [&](std::uint32_t child) noexcept { front_.remove(child); });
+        insert(n, ball);
       }
     }
 
     NearSearch& search_;
-    DueCalendar& calendar_;
+    Front& front_;
     const Look<Direction, Field>& look_;
-    const double per_tick_;
+    const Front::Place place_;
+    const double enough_;  ///< a ball of less does not let its item stay in the front [m]
     const std::uint32_t node_count_;
     PointBatch batch_;
     Indices item_;
     std::array<float, PointBatch::kCapacity> radius_;
-    std::uint32_t opened_ = DueCalendar::kNone;     ///< nodes whose children need a look-up
-    std::uint32_t replacing_ = DueCalendar::kNone;  ///< nodes that may replace their children again
+    std::uint32_t leaving_ = Front::kNone;    ///< nodes that leave the front after the scan
+    std::uint32_t opened_ = Front::kNone;     ///< nodes whose children need a look-up
+    std::uint32_t replacing_ = Front::kNone;  ///< nodes that may replace their children again
     SampleBatch samples_;
     Work kind_ = Work::kItem;  ///< of the bounds that are looked up
   };
 
   std::span<std::uint32_t> words_;
-  DueCalendar calendar_;
+  Front front_;
   std::span<std::uint32_t> bounds_;  ///< lower bounds of the marked points' clearances, a float a point [m]
   double slope_ = 1.0;               ///< the field's lipschitz()
-  double tick_{};                    ///< the calendar's tick [m]
+  double ahead_{};                   ///< distance that a search without near points looks ahead [m]
   std::uint32_t next_ = 0;           ///< points before this one have been visited, if the search goes on
   bool was_complete_ = true;         ///< the last search was not ended by the budget
   double certain_ = kNever;          ///< reading of the odometer until which the last search proves points free [m]

@@ -20,7 +20,8 @@ TEST(WorkMeter, SumsTheCostsOfItsPieces) {
   EXPECT_EQ(work.on_trees(), 0u);
   work.add(Work::kItem, 5);
   work.add(Work::kBranches, 3);
-  EXPECT_EQ(work.on_trees(), 5 * cost_of(Work::kItem) + 3 * cost_of(Work::kBranches));
+  work.add(Work::kBlock, 7);
+  EXPECT_EQ(work.on_trees(), 5 * cost_of(Work::kItem) + 3 * cost_of(Work::kBranches) + 7 * cost_of(Work::kBlock));
   EXPECT_EQ(work.spent(), 9 * cost_of(Work::kPoint) + cost_of(Work::kBall) + work.on_trees());
   work.start(1000000);
   EXPECT_EQ(work.spent(), 0u) << "a cycle starts from nothing";
@@ -96,7 +97,7 @@ TEST(WorkShare, ShortensTheRadiusFirstAndThenTheMotion) {
 
 /// A cycle that spends most of its work on the trees is no reason for a smaller share.
 TEST(WorkShare, KeepsAllIfTheTreesTakeMostOfTheWork) {
-  for (const Work kind : {Work::kItem, Work::kBranches}) {
+  for (const Work kind : {Work::kBlock, Work::kItem, Work::kBranches}) {
     WorkShare share;
     for (int k = 0; k < 10; ++k) share.learn(spent_on(kind, 1000), 0);
     EXPECT_EQ(share.radius(), 1.0);

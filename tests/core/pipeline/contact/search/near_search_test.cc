@@ -1,4 +1,4 @@
-// The search with its calendar, compared with brute force: it finds the same points, whatever it has stored.
+// The search with its front, compared with brute force: it finds the same points, whatever it has stored.
 
 #include "core/pipeline/contact/search/near_search.h"
 
