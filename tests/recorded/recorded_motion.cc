@@ -201,7 +201,7 @@ std::string without_work(const std::string& line) {
 
 std::string difference(const std::string& was, const std::string& is) {
   constexpr double kRounding = 1e-6;  // of the terms' sizes
-  constexpr double kOfWork = 1e-4;    // the same of work: a tick of the search may fall to either side
+  constexpr double kOfWork = 1e-4;    // the same of work: a comparison of the search may fall to either side
   constexpr double kNothing = 1e-9;   // of all sums
   const std::vector<std::string> header = words_of(record_header());
   const std::vector<std::string> before = words_of(was);

@@ -476,11 +476,9 @@ TEST_F(GodObjectTest, KeepsToTheBudgetOfWorkFromTheFirstCycleOn) {
           EXPECT_EQ(god_object->mesh_pose().translation, device(0).translation) << "it stays until then";
         }
       }
-      EXPECT_GE(unknown, budget == 5000u ? 3 : 0) << "the budget does not end the first search";
-      EXPECT_LE(unknown, budget == 5000u    ? 3
-                         : budget == 16000u ? 1
-                                            : 0)
-          << "cycles without force though the device moves";
+      // with 16000 units the search from inside, where more points are near, does not end in the first cycle
+      const int expected_unknown = budget == 5000u ? 3 : budget == 16000u && is_inside ? 1 : 0;
+      EXPECT_EQ(unknown, expected_unknown) << "cycles without force though the device moves";
       EXPECT_EQ(report.outcome, outcome) << budget;
       EXPECT_LT((god_object->mesh_pose().translation - expected.translation).norm(), 2e-5) << budget;
       // `follow` forgets it, and so does the next first cycle

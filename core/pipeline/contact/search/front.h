@@ -84,22 +84,19 @@ class Front {
     double per_pace;  ///< 1 / pace, above 0
   };
 
-  /// Puts an item into the front, or gives it another ball there. It is free until the odometer reads `until` [m].
+  /// Puts an item into the front, or gives it another ball there, at `place`. It is free until the odometer reads
+  /// `until` [m].
   void insert(std::uint32_t item, const Place& place, const Ball& ball, double until) noexcept {
     std::uint32_t slot = word(item, kSlot);
     if (slot == kNone) slot = append(item);
-    renew(slot, place, ball, until);
+    set_ball(blocks_[slot / kBlockSize], slot % kBlockSize, place, ball);
+    lower(slot / kBlockSize, until);
   }
   /// Puts an item into the front that the next scan finds, wherever the item is.
   void insert_due(std::uint32_t item) noexcept;
   /// Takes an item out of the front. The last item takes its slot.
   void remove(std::uint32_t item) noexcept;
 
-  /// Gives the item in a slot another ball, at `place`.
-  void renew(std::uint32_t slot, const Place& place, const Ball& ball, double until) noexcept {
-    set_ball(blocks_[slot / kBlockSize], slot % kBlockSize, place, ball);
-    lower(slot / kBlockSize, until);
-  }
   /// Returns the item in a slot.
   std::uint32_t item_in(std::uint32_t slot) const noexcept {
     return blocks_[slot / kBlockSize].item[slot % kBlockSize];
@@ -112,11 +109,11 @@ class Front {
   }
 
   /// Finds the items that may leave their ball before the odometer reads travelled + reach, and calls visit(slot) for
-  /// each. The caller renews or removes each of them, or marks it, before the next scan: their block is not due because
-  /// of them. `visit` may renew and mark items, but neither insert nor remove one. Before each group of at most kAtOnce
-  /// blocks that are due it asks go_on(blocks): if false, the blocks that are left stay due, and `scan` returns false.
-  /// `travelled`: the odometer's reading at `place` [m]. Cost: a comparison for each block, and one for each item of
-  /// the blocks that are due.
+  /// each. Before the next scan the caller gives each of them another ball, marks it or removes it: their block is not
+  /// due because of them. `visit` itself may do the first two. Before each group of at most kAtOnce blocks that are due
+  /// it asks go_on(blocks): if false, the blocks that are left stay due, and `scan` returns false. `travelled`: the
+  /// odometer's reading at `place` [m]. Cost: a comparison for each block, and one for each item of the blocks that are
+  /// due.
   template <class Visit, class GoOn>
   bool scan(const Place& place, double travelled, double reach, Visit&& visit, GoOn&& go_on) noexcept {
     const double horizon = travelled + reach;
@@ -178,6 +175,7 @@ class Front {
     if (marks_[point / 32] == 0) marked_words_[point / 1024] &= ~(1u << point / 32 % 32);
     --marked_;
   }
+  /// Tells whether a point is marked.
   bool is_marked(std::uint32_t point) const noexcept { return (marks_[point / 32] >> point % 32 & 1) != 0; }
   /// Returns the number of marked points.
   std::uint32_t marked() const noexcept { return marked_; }

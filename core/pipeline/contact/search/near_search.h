@@ -250,14 +250,16 @@ class NearSearch {
       note_parent(i, ball);
     }
 
-    /// Adds the sphere of an item to the batch of bounds. `at`: the item, or its slot in the front.
-    void add(std::uint32_t at, const Front::Sphere& sphere) noexcept {
-      const std::uint32_t k = batch_.count++;
-      item_[k] = at;
+    /// Adds an item, given with its sphere, to the batch of bounds.
+    void add(std::uint32_t i, const Front::Sphere& sphere) noexcept {
+      const std::uint32_t k = batch_.count;
+      item_[k] = i;
       batch_.x[k] = sphere.x;
       batch_.y[k] = sphere.y;
       batch_.z[k] = sphere.z;
       radius_[k] = sphere.radius;
+      batch_.count = k + 1;
+      if (batch_.count == PointBatch::kCapacity) flush();
     }
 
     /// Returns the ball of item `k` of the batch.
@@ -267,40 +269,11 @@ class NearSearch {
       return look_.ball(static_cast<double>(batch_.clearance[k]), center, static_cast<double>(radius_[k]));
     }
 
-    void look_up_batch() noexcept {
-      look_.work.add(kind_, batch_.count);
-      look_.field.clearances(look_.H, batch_);
-    }
-
-    void mark(std::uint32_t point, std::uint32_t k) noexcept {
-      front_.mark(point);
-      search_.bounds_[point] = std::bit_cast<std::uint32_t>(batch_.clearance[k]);
-    }
-
-    /// Looks up the batch's slots of the front: renews the balls of far items, chains the others.
-    void renew_slots() noexcept {
-      if (batch_.count == 0) return;
-      look_up_batch();
-      for (std::uint32_t k = 0; k < batch_.count; ++k) {
-        const Front::Ball ball = ball_of(k);
-        const std::uint32_t i = front_.item_in(item_[k]);
-        if (may_stay(ball, static_cast<double>(radius_[k]))) {
-          front_.renew(item_[k], place_, ball, look_.free_until(ball));
-          note_parent(i, ball);
-        } else if (i < node_count_) {
-          front_.push(leaving_, i);
-        } else {
-          mark(i - node_count_, k);
-        }
-      }
-      batch_.count = 0;
-    }
-
-    /// Looks up the batch's items, which are not in the front: inserts far items, opens the other nodes, marks the
-    /// other points.
+    /// Looks up the batch's bounds: gives far items a ball in the front, opens the other nodes, marks the other points.
     void flush() noexcept {
       if (batch_.count == 0) return;
-      look_up_batch();
+      look_.work.add(kind_, batch_.count);
+      look_.field.clearances(look_.H, batch_);
       for (std::uint32_t k = 0; k < batch_.count; ++k) {
         const std::uint32_t i = item_[k];
         const Front::Ball ball = ball_of(k);
@@ -309,15 +282,21 @@ class NearSearch {
         } else if (i < node_count_) {
           front_.push(opened_, i);
         } else {
-          mark(i - node_count_, k);
+          front_.mark(i - node_count_);
+          search_.bounds_[i - node_count_] = std::bit_cast<std::uint32_t>(batch_.clearance[k]);
         }
       }
       batch_.count = 0;
     }
 
-    void add_item(std::uint32_t i) noexcept {
-      add(i, front_.sphere_of(i));
-      if (batch_.count == PointBatch::kCapacity) flush();
+    void add(std::uint32_t i) noexcept { add(i, front_.sphere_of(i)); }
+
+    /// Calls visit(child) for the children of the next opened node, which leaves the front.
+    template <class Visit>
+    void open_next(Visit&& visit) noexcept {
+      const std::uint32_t n = front_.pop(opened_);
+      if (front_.has(n)) front_.remove(n);
+      Front::for_each_child(look_.shell, n, visit);
     }
 
     /// Compares the front with its balls. False: the budget of work was spent.
@@ -325,22 +304,14 @@ class NearSearch {
       // Without marked points, items that are due soon are looked up early: then most cycles of free motion need no
       // look-up. Not after a search that the budget ended: it would look at the same ones again.
       const double ahead = front_.marked() == 0 && search_.was_complete_ ? search_.ahead_ : 0.0;
-      const auto visit = [this](std::uint32_t slot) noexcept {
-        add(slot, front_.sphere_in(slot));
-        if (batch_.count == PointBatch::kCapacity) renew_slots();
-      };
+      const auto visit = [this](std::uint32_t slot) noexcept { add(front_.item_in(slot), front_.sphere_in(slot)); };
       const auto go_on = [this](std::uint32_t blocks) noexcept {
         if (look_.work.is_spent()) return false;
         look_.work.add(Work::kBlock, blocks);
         return true;
       };
       const bool all = front_.scan(place_, look_.travelled, look_.reach + ahead, visit, go_on);
-      renew_slots();
-      while (leaving_ != Front::kNone) {
-        const std::uint32_t i = front_.pop(leaving_);
-        front_.remove(i);
-        front_.push(opened_, i);
-      }
+      flush();
       return all;
     }
 
@@ -354,7 +325,7 @@ class NearSearch {
         if (opened_ == Front::kNone) {
           flush();
         } else {
-          Front::for_each_child(look_.shell, front_.pop(opened_), [this](std::uint32_t i) noexcept { add_item(i); });
+          open_next([this](std::uint32_t i) noexcept { add(i); });
         }
       }
       return all && !look_.work.is_spent();
@@ -366,7 +337,7 @@ class NearSearch {
       const auto insert_due = [this](std::uint32_t i) noexcept { front_.insert_due(i); };
       for (std::uint32_t k = 0; k < batch_.count; ++k) insert_due(item_[k]);
       batch_.count = 0;
-      while (opened_ != Front::kNone) Front::for_each_child(look_.shell, front_.pop(opened_), insert_due);
+      while (opened_ != Front::kNone) open_next(insert_due);
     }
 
     /// Looks up bounds at this pose for all marked points: the budget compares them. False: as `run`.
@@ -375,7 +346,7 @@ class NearSearch {
       const bool all = front_.for_each_marked([&](std::uint32_t i) noexcept {
         if (look_.work.is_spent()) return false;
         front_.unmark(i);
-        add_item(node_count_ + i);
+        add(node_count_ + i);
         return true;
       });
       flush();
@@ -456,7 +427,7 @@ class NearSearch {
         Front::for_each_child(look_.shell, n, [&](std::uint32_t child) noexcept { all &= front_.has(child); });
         if (!all || look_.work.is_spent()) continue;
         look_.work.add(Work::kItem, 8);  // a batch of one
-        add(n, front_.sphere_of(n));
+        add(n);
         look_.field.clearances(look_.H, batch_);
         batch_.count = 0;
         const Front::Ball ball = ball_of(0);
@@ -475,7 +446,6 @@ class NearSearch {
     PointBatch batch_;
     Indices item_;
     std::array<float, PointBatch::kCapacity> radius_;
-    std::uint32_t leaving_ = Front::kNone;    ///< nodes that leave the front after the scan
     std::uint32_t opened_ = Front::kNone;     ///< nodes whose children need a look-up
     std::uint32_t replacing_ = Front::kNone;  ///< nodes that may replace their children again
     SampleBatch samples_;

@@ -159,7 +159,7 @@ TEST(Front, FindsAnItemAgainOnlyWhenItHasMoved) {
       const std::uint32_t item = at.front.item_in(slot);
       const double per_pace = random.between(0.5, 1.0);
       const Front::Ball ball{enough * random.between(1.000001, 4.0) / per_pace, per_pace};
-      at.front.renew(slot, place, ball, travelled + ball.radius * ball.per_pace);
+      at.front.insert(item, place, ball, travelled + ball.radius * ball.per_pace);
       EXPECT_EQ(at.front.item_in(slot), item);
       at.table[item] = {at.position(item), ball};
     }
@@ -479,9 +479,8 @@ TEST(Front, HoldsAShellOfOnePoint) {
 TEST(Front, KnowsTheChildrenAndTheirParent) {
   const SampledBody body = ball_body();
   const Pointshell& shell = body.pointshell();
-  std::vector<std::uint32_t> memory(Front::memory(shell));
-  Front front;
-  front.start(memory, shell);
+  FrontAndTable at(shell);
+  Front& front = at.front;
   const auto nodes = static_cast<std::uint32_t>(shell.nodes.size());
   std::vector<int> seen(nodes + shell.size);
   for (std::uint32_t n = 0; n < nodes; ++n) {
@@ -497,9 +496,8 @@ TEST(Front, KnowsTheChildrenAndTheirParent) {
 TEST(Front, KnowsSpheresThatHoldTheirPoints) {
   const SampledBody body = ball_body();
   const Pointshell& shell = body.pointshell();
-  std::vector<std::uint32_t> memory(Front::memory(shell));
-  Front front;
-  front.start(memory, shell);
+  FrontAndTable at(shell);
+  Front& front = at.front;
   const auto nodes = static_cast<std::uint32_t>(shell.nodes.size());
   const auto center = [](const Front::Sphere& s) {
     return Vector3(static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z));
@@ -524,9 +522,8 @@ TEST(Front, KnowsSpheresThatHoldTheirPoints) {
 TEST(Front, KeepsTheMarksOfManyPoints) {
   const SampledBody body = ball_body(0.02, 5000);
   const Pointshell& shell = body.pointshell();
-  std::vector<std::uint32_t> memory(Front::memory(shell));
-  Front front;
-  front.start(memory, shell);
+  FrontAndTable at(shell);
+  Front& front = at.front;
   std::mt19937_64 random(7);
   std::set<std::uint32_t> marks;
   for (int step = 0; step < 3000; ++step) {
