@@ -351,15 +351,21 @@ struct FacetDifference::Cell {
   double edge;
   const double (&corners)[8];
 
-  /// Interpolates at a place in the cell, 0 .. 1.
-  double interpolated(const Vector3d& at) const {
-    double sum = 0.0;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      double share = 1.0;
-      for (unsigned axis = 0; axis < 3; ++axis) share *= (corner >> axis & 1) != 0 ? at[axis] : 1.0 - at[axis];
-      sum += share * corners[corner];
+  /// Interpolates at the corners of a box in the cell, x fastest. `least` and `most`: of its coordinates, 0 .. 1.
+  std::array<double, 8> interpolated(const Vector3d& least, const Vector3d& most) const {
+    std::array<double, 8> value{};
+    for (unsigned corner = 0; corner < 8; ++corner) value[corner] = corners[corner];
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const unsigned next = 1u << axis;
+      for (unsigned corner = 0; corner < 8; ++corner) {
+        if ((corner & next) != 0) continue;
+        const double from = value[corner];
+        const double to = value[corner | next];
+        value[corner] = (1.0 - least[axis]) * from + least[axis] * to;
+        value[corner | next] = (1.0 - most[axis]) * from + most[axis] * to;
+      }
     }
-    return sum;
+    return value;
   }
 };
 
@@ -395,36 +401,38 @@ void FacetDifference::add(const Cell& cell, const Box& box, std::span<const std:
   constexpr double kEnough = 0.05;          // of the cell's edge
   const Vector3d p = cell.low + cell.edge * box.center;
   const double radius = 2.0 * kHalfDiagonal * box.half_edge * cell.edge;
-  std::array<double, format::kMostFacets> distance{};
+  std::array<double, format::kMostFacets> squared;
   double nearest = std::numeric_limits<double>::infinity();
   Vector3d normal = Vector3d::Zero();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const format::Facet& f = facets_.facets[numbers[i]];
     const Vector3d on = nearest_point_on_triangle(p, vector(f.vertex[0]), vector(f.vertex[1]), vector(f.vertex[2]));
-    distance[i] = (on - p).norm();
-    if (distance[i] >= nearest) continue;
-    nearest = distance[i];
+    squared[i] = (on - p).squaredNorm();
+    if (squared[i] >= nearest) continue;
+    nearest = squared[i];
     normal = face_normal(f);
   }
-  std::array<std::uint32_t, format::kMostFacets> near{};
+  const double furthest = std::sqrt(nearest) + 2.0 * radius;
+  std::array<std::uint32_t, format::kMostFacets> near;
   std::size_t count = 0;
-  double apart = 0.0;
+  double squared_apart = 0.0;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (distance[i] > nearest + 2.0 * radius) continue;
+    if (squared[i] > furthest * furthest) continue;
     near[count++] = numbers[i];
-    apart = std::max(apart, (face_normal(facets_.facets[numbers[i]]) - normal).norm());
+    squared_apart = std::max(squared_apart, (face_normal(facets_.facets[numbers[i]]) - normal).squaredNorm());
   }
+  double apart = std::sqrt(squared_apart);
   const auto counting = std::span(near).first(count);
   const double value = facet_distance(facets_.facets, counting, p).value + offset_;
+  const Vector3d half = Vector3d::Constant(box.half_edge);
+  const std::array<double, 8> interpolated = cell.interpolated(box.center - half, box.center + half);
   double bound = 0.0;
   bool outside = value + radius > 0.0;
   for (unsigned corner = 0; corner < 8; ++corner) {
     const Vector3d side((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0);
-    const Vector3d away = box.half_edge * side;
-    const double plane = value + cell.edge * normal.dot(away);
-    const double interpolated = cell.interpolated(box.center + away);
-    outside = outside || interpolated > 0.0;
-    bound = std::max(bound, std::abs(plane - interpolated));
+    const double plane = value + cell.edge * box.half_edge * normal.dot(side);
+    outside = outside || interpolated[corner] > 0.0;
+    bound = std::max(bound, std::abs(plane - interpolated[corner]));
   }
   // between normals that are more than a right angle apart any direction may lie
   if (apart > std::numbers::sqrt2) apart = 2.0;
