@@ -34,11 +34,12 @@ namespace godobject {
 /// that a search that would have gone on begins again.
 /// `times`: step #1 contains every look-up, also those of the certificate, except those that test a rest after a second
 /// look. Cost: at most kMaxSubsteps sub-steps with a near point, each with at most kMostAttempts attempts. An attempt
-/// looks up each near point, and each force three times. A sub-step solves at most 6 (1 + 2 (kMostSecondLooks + 2) +
-/// kMostRefills + kMostImpliedRounds) times: once, in each second look with and without arcs, of which two may fail,
-/// with rows of left-out points, and without implied rows; each in one or two metrics, with and without required gains,
-/// or with slower ones. Besides, kMostFreeSubsteps sub-steps without a near point, and kMostBallsOfCycle further
-/// look-ups a cycle. Real-time safe.
+/// looks up each near point, and each force three times. A sub-step solves at most 6 (2 (kMostSecondLooks + 2) +
+/// kMostRefills + (1 + kMostExtensions) (1 + kMostImpliedRounds)) times: once, and once more for each time that bounded
+/// points become rows, both also without implied rows; in each second look with and without arcs, of which two may
+/// fail; with rows of left-out points; each in one or two metrics, with and without required gains, or with slower
+/// ones. Besides, kMostFreeSubsteps sub-steps without a near point, and kMostBallsOfCycle further look-ups a cycle.
+/// Real-time safe.
 template <bool kFriction, DistanceField Field, DistanceField BodyField>
 Status contact_cycle(const ContactScene<Field, BodyField>& scene, const CycleInput& input, ContactMemory& memory,
                      ProxyState& state, CycleReport& report, StepTimes* times = nullptr) noexcept {

@@ -33,7 +33,7 @@ struct ContactWorkspace {
 static_assert(sizeof(ContactWorkspace) < 1664 * 1024);
 
 /// Step #1 of `contact` in both directions and for edge against edge, with the memory of how far each node, point and
-/// pair is from being near. The results do not depend on that memory.
+/// pair is from being near. The memory does not change what is free.
 struct ContactSearch {
   Odometer odometer;
   NearSearch samples;

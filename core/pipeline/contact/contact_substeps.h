@@ -95,7 +95,8 @@ class ContactSubsteps {
       }
       around_ = Surroundings{.free_displacement = search_radius_};
       rows_.count = 0;
-      memory_.workspace.samples.count = memory_.workspace.features.count = 0;
+      memory_.workspace.samples.clear();
+      memory_.workspace.features.clear();
       memory_.search.start_over();
       kept.has_samples = kept.has_all = false;
     }
@@ -147,11 +148,7 @@ class ContactSubsteps {
     if constexpr (kFriction) {
       friction_.patches = patches_of(step_, memory_.workspace.samples, lengths_, work_);
     }
-    solve_in_best_metric();
-    for (int round = 0; round < kMostImpliedRounds && !step_.infeasible && drop_implied_rows(); ++round) {
-      solve_in_best_metric();
-    }
-    add_violated_rows();
+    solve_without_implied_rows();
     work_.set_aside(0);
   }
 
@@ -173,11 +170,9 @@ class ContactSubsteps {
   /// Tries the motion, or a share of it, until the certificate holds. Sets `motion_` and `H1_`.
   void certify() noexcept {
     share_ = MotionShare(allowed_share(step_.motion, around_, search_radius_, lengths_, rows_.count > 0));
-    share_.limit_to(memory_.share.motion());
     if (memory_.share.is_least()) share_.forgo_looks();
-    // by the triangle inequality the distance grows by at most a margin
-    most_gain_ = std::max(0.0, distance_gain()) + 2.0 * lengths_.margin * std::sqrt(squared(aim_));
-    limit_arcs();
+    limit_motion();
+    extensions_left_ = kMostExtensions;
     at_sample_ = at_feature_ = Obstacle{};
     at_edge_ = EdgeObstacle{};
     is_outdated_ = false;
@@ -203,7 +198,7 @@ class ContactSubsteps {
       end(times_, &StepTimes::step1_ns);
       if (overshoots) continue;
       if (is_free) return;
-      react_to_obstacle(freedom);
+      if (!extend_rows(freedom)) react_to_obstacle(freedom);
     }
     share_.give_up();
     H1_ = H0_;
@@ -280,6 +275,15 @@ class ContactSubsteps {
     if (first_work_ > 0) return memory_.share.lengthen_motion();  // an earlier sub-step of this cycle
     memory_.share.shorten_search();
     if (had_all_points_) memory_.share.shorten_motion();
+  }
+
+  /// Solves in the best metric, without rows that edge pairs imply, then with those that found no room.
+  void solve_without_implied_rows() noexcept {
+    solve_in_best_metric();
+    for (int round = 0; round < kMostImpliedRounds && !step_.infeasible && drop_implied_rows(); ++round) {
+      solve_in_best_metric();
+    }
+    add_violated_rows();
   }
 
   /// Drops the rows with a force that edge pairs imply. Returns whether there was one.
@@ -550,7 +554,7 @@ class ContactSubsteps {
     has_samples =
         search.samples.is_free(travelled, search_radius_) ||
         find_near(search.samples, SampleDirection{}, *scene_.field, *scene_.shell, H0_, travelled, search_radius_,
-                  lengths_, point_budget(), work_, memory_.workspace.samples, rows_, around_, goes_on_);
+                  exact_radius(), lengths_, point_budget(), work_, memory_.workspace.samples, rows_, around_, goes_on_);
     return has_samples;
   }
 
@@ -559,11 +563,19 @@ class ContactSubsteps {
     if (!scene_.has_features()) return true;
     ContactSearch& search = memory_.search;
     const double travelled = search.odometer.travelled();
-    const double radius = search_radius_ * scene_.feature_direction.most_stretch();
+    const double stretch = scene_.feature_direction.most_stretch();
+    const double radius = search_radius_ * stretch;
     if (search.features.is_free(travelled, radius)) return true;
     return find_near(search.features, scene_.feature_direction, *scene_.features.map, scene_.features.points,
-                     H0_features_, travelled, radius, lengths_, point_budget(), work_, memory_.workspace.features,
-                     rows_, around_, goes_on_);
+                     H0_features_, travelled, radius, exact_radius() * stretch, lengths_, point_budget(), work_,
+                     memory_.workspace.features, rows_, around_, goes_on_);
+  }
+
+  /// Returns the distance up to which near points are looked up exactly and become rows [m]. Not less than what the
+  /// report and the contact patches need; all points within the search radius on the way out of an overlap.
+  double exact_radius() const noexcept {
+    if (result_.inside || !state_.started) return search_radius_;
+    return std::max({kExactShare * search_radius_, lengths_.shortest_search_radius, 3.0 * lengths_.margin});
   }
 
   /// Returns how many points a sub-step looks up.
@@ -642,6 +654,53 @@ class ContactSubsteps {
     bool features;
     bool edges;
   };
+
+  /// Limits a new motion.
+  void limit_motion() noexcept {
+    share_.limit_to(memory_.share.motion());
+    // by the triangle inequality the distance grows by at most a margin
+    most_gain_ = std::max(0.0, distance_gain()) + 2.0 * lengths_.margin * std::sqrt(squared(aim_));
+    limit_arcs();
+  }
+
+  /// After an attempt that met a point of which only a bound is known: makes rows of all such points in the way and
+  /// computes the motion again. False: there is none, or none of their rows is violated.
+  bool extend_rows(const Freedom& freedom) noexcept {
+    NearPoints& samples = memory_.workspace.samples;
+    NearPoints& features = memory_.workspace.features;
+    const std::uint32_t rows = rows_.count;
+    const std::uint32_t dropped = around_.dropped;
+    bool found = false;
+    if (extensions_left_ == 0) return false;
+    if (!freedom.samples && samples.is_bound_only(at_sample_.near)) {
+      found = look_up_bounded<SampleDirection>(*scene_.field, H0_, H1_, lengths_, samples, rows_, around_, work_);
+    }
+    if (scene_.has_features() && !freedom.features && features.is_bound_only(at_feature_.near)) {
+      found |= look_up_bounded<FeatureDirection>(*scene_.features.map, H0_features_, H1_features_, lengths_, features,
+                                                 rows_, around_, work_);
+    }
+    if (!found || (around_.dropped == dropped && !violates_rows(rows))) return false;
+    memory_.kept.around.dropped += around_.dropped - dropped;
+    --extensions_left_;
+    if (share_.looks_left() == kMostSecondLooks) first_look_row_ = rows_.count;
+    const bool infeasible = step_.infeasible;  // then the rows have lost their required gains
+    solve_without_implied_rows();
+    step_.infeasible |= infeasible;
+    share_.restart(allowed_share(step_.motion, around_, search_radius_, lengths_, true));
+    limit_motion();
+    return true;
+  }
+
+  /// Tells whether the step violates a row from `first` on.
+  bool violates_rows(std::uint32_t first) const noexcept {
+    work_.add(Work::kScan, rows_.count - first);
+    const double tolerance = 2.0 * lengths_.metric.tolerance;  // rows of the step are met within one
+    for (std::uint32_t row = first; row < rows_.count; ++row) {
+      const Vector3 displacement = step_.motion.translation + step_.motion.rotation.cross(rows_.point(row));
+      if (static_cast<double>(rows_.required_gain[row]) - rows_.normal(row).dot(displacement) > tolerance) return true;
+    }
+    return false;
+  }
 
   /// Reacts to a failed attempt: turns the obstacle into a row, or shortens the motion.
   void react_to_obstacle(const Freedom& freedom) noexcept {
@@ -830,6 +889,7 @@ class ContactSubsteps {
   double search_radius_{};
   Surroundings around_{};
   std::uint32_t first_look_row_{};  // rows of second looks begin here
+  int extensions_left_{};           // times that bounded points may become rows
   int refills_left_{};
   double regain_{};  // share of the lost gaps that the rows regain of what the gap law demands [1]
   MotionShare share_{1.0};

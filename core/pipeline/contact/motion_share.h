@@ -58,11 +58,15 @@ class MotionShare {
     looks_ = 0;
     shrink(is_early() ? 0.5 : 0.25);
   }
-  /// Restarts with the share `first` after an obstacle became a row and the motion was computed again.
-  void look_again(double first) noexcept {
-    --looks_;
+  /// Restarts with the share `first` after near points became rows and the motion was computed again.
+  void restart(double first) noexcept {
     stopped_ = overshoots_ = false;
     value_ = first;
+  }
+  /// The same after an obstacle became a row: a second look.
+  void look_again(double first) noexcept {
+    --looks_;
+    restart(first);
   }
 
  private:

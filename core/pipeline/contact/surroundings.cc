@@ -9,7 +9,7 @@ Selection select_rows(ContactWorkspace& workspace) noexcept {
   std::uint32_t count = 0;
   for (const auto* near : {&workspace.samples, &workspace.features}) {
     for (std::uint32_t k = 0; k < near->count; ++k) {
-      workspace.distances[count++] = static_cast<float>(near->distance[k]);
+      if (!near->is_bound_only(k)) workspace.distances[count++] = static_cast<float>(near->distance[k]);
     }
   }
   if (count <= ContactRows::kCapacity) return {std::numeric_limits<double>::infinity(), 1};

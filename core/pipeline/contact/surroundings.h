@@ -41,21 +41,22 @@ std::uint32_t push_rows(const SampleBatch& batch, const std::uint32_t* index, st
 }
 
 /// Finds all points of one direction with a clearance below `search_radius` [m], and appends rows for those with a
-/// gradient while there is room. `H`: pose of the shell in the field's frame; `travelled`: the odometer's reading there
-/// [m]; `near` must be empty, unless the search `goes_on`: see NearSearch::find. Adds to `rows`, `around` and `work`.
-/// False: as NearSearch::find.
-/// Cost: NearSearch::find. Real-time safe.
+/// gradient while there is room. Of points beyond `exact_radius` [m] only bounds are listed, without rows: once the
+/// motion meets one, look_up_bounded makes rows of them. `H`: pose of the shell in the field's frame;
+/// `travelled`: the odometer's reading there [m]; `near` must be empty, unless the search `goes_on`: see
+/// NearSearch::find. Adds to `rows`, `around` and `work`. False: as NearSearch::find. Cost: NearSearch::find. Real-time
+/// safe.
 template <class Direction, DistanceField Field>
 bool find_near(NearSearch& search, const Direction& direction, const Field& field, const Pointshell& shell,
-               const Pose& H, double travelled, double search_radius, const ContactLengths& lengths,
-               const PointBudget& budget, WorkMeter& work, NearPoints& near, ContactRows& rows, Surroundings& around,
-               bool goes_on = false) noexcept {
+               const Pose& H, double travelled, double search_radius, double exact_radius,
+               const ContactLengths& lengths, const PointBudget& budget, WorkMeter& work, NearPoints& near,
+               ContactRows& rows, Surroundings& around, bool goes_on = false) noexcept {
   const Matrix3 R = H.rotation.toRotationMatrix();
   const auto limit_displacement = [&](double clearance) noexcept {
     around.free_displacement = std::min(around.free_displacement, clearance / direction.most_stretch());
   };
   const bool has_all = search.find(
-      direction, field, shell, H, travelled, search_radius, budget, work,
+      direction, field, shell, H, travelled, search_radius, exact_radius, budget, work,
       [&](const SampleBatch& batch, const auto& index, std::uint64_t found) noexcept {
         const std::uint32_t before = near.count;
         const std::uint64_t stored = near.push(index.data(), batch, found);
@@ -70,6 +71,13 @@ bool find_near(NearSearch& search, const Direction& direction, const Field& fiel
                      [&](std::uint32_t k) noexcept { around.swallowed |= batch.distance[k] < 0.0; });
         around.dropped += push_rows<Direction>(batch, index.data(), stored, R, lengths, rows);
       },
+      [&](const PointBatch& batch, const auto& index, std::uint64_t bounded) noexcept {
+        const std::uint64_t stored = near.push_bounds(index.data(), batch, bounded);
+        for_each_bit(bounded & ~stored, [&](std::uint32_t k) noexcept {
+          limit_displacement(static_cast<double>(batch.clearance[k]));
+          ++around.unlisted;
+        });
+      },
       [&](double clearance) noexcept {
         limit_displacement(clearance);
         ++around.unseen;
@@ -78,6 +86,43 @@ bool find_near(NearSearch& search, const Direction& direction, const Field& fiel
   around.smallest = std::min(around.smallest, near.least_distance());
   near.pad();
   return has_all;
+}
+
+/// Looks up the listed points exactly of which only a bound is known, and whose ball the motion from H0 to H1 leaves:
+/// poses of the shell in the field's frame. Appends their rows while there is room. Returns whether there was one. Adds
+/// to `rows`, `around` and `work`. Cost: a look-up for each of them. Real-time safe.
+template <class Direction, DistanceField Field>
+bool look_up_bounded(const Field& field, const Pose& H0, const Pose& H1, const ContactLengths& lengths,
+                     NearPoints& near, ContactRows& rows, Surroundings& around, WorkMeter& work) noexcept {
+  const Matrix3 R0 = H0.rotation.toRotationMatrix();
+  const Matrix3 turn = H1.rotation.toRotationMatrix() - R0;
+  const Vector3 shift = H1.translation - H0.translation;
+  SampleBatch batch;
+  std::array<std::uint32_t, SampleBatch::kCapacity> place;
+  std::array<std::uint32_t, SampleBatch::kCapacity> number;
+  bool found = false;
+  for (std::uint32_t first = 0; first < near.bounded && !work.is_spent(); first += 64) {
+    work.add(Work::kScan, 64);
+    batch.count = 0;
+    for_each_bit(near.leave_their_ball(first, turn, shift, lengths.margin), [&](std::uint32_t bit) noexcept {
+      const std::uint32_t i = first + bit;
+      if (!near.is_bound_only(i)) return;
+      const std::uint32_t k = batch.count++;
+      place[k] = i;
+      number[k] = near.index[i];
+      batch.x[k] = near.x[i];
+      batch.y[k] = near.y[i];
+      batch.z[k] = near.z[i];
+    });
+    if (batch.count == 0) continue;
+    work.add(Work::kPoint, batch.count);
+    work.add(Work::kNear, batch.count);
+    field.samples(H0, batch);
+    for (std::uint32_t k = 0; k < batch.count; ++k) near.set(place[k], batch, k);
+    around.dropped += push_rows<Direction>(batch, number.data(), first_bits(batch.count), R0, lengths, rows);
+    found = true;
+  }
+  return found;
 }
 
 /// The choice among more near points than rows.
@@ -91,7 +136,7 @@ Selection select_rows(ContactWorkspace& workspace) noexcept;
 
 /// The row of a near point: the normal component of the point's displacement has to reach the required gain.
 struct NearRow {
-  bool exists = false;     ///< false: the field has no gradient at the point; then the rest is not set
+  bool exists = false;     ///< false: no gradient is known at the point; then the rest is not set
   Vector3 point_S;         ///< [m]
   Vector3 normal_S;        ///< unit vector along which the distance grows
   double required_gain{};  ///< [m]
@@ -143,6 +188,7 @@ void push_selected(const Pose& H, const Selection& selection, const ContactLengt
   const NearRows<Direction> near_rows(near, H, lengths, 1.0);
   std::uint32_t others = 0;
   for (std::uint32_t k = 0; k < near.count && !rows.full(); ++k) {
+    if (near.is_bound_only(k)) continue;
     if (near.distance[k] <= selection.deepest || others++ % selection.stride == 0) near_rows.push(k, rows);
   }
 }

@@ -108,8 +108,8 @@ class NearWork {
                          lengths_.search_radius_for(ContactLengths::kSearchRadiusOverDisplacement * moved, longest_);
     if (search_.is_free(odometer_.travelled(), reach)) return;
     search_.find(
-        direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.travelled(), reach,
-        PointBudget{}, work_, [](auto&&...) noexcept {}, [](double) noexcept {});
+        direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.travelled(), reach, reach,
+        PointBudget{}, work_, [](auto&&...) noexcept {}, [](auto&&...) noexcept {}, [](double) noexcept {});
   }
 
  private:

@@ -1,6 +1,7 @@
 #include "core/pipeline/contact/search/near_points.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "core/scene/sample_bits.h"
@@ -82,6 +83,25 @@ double least_distance_of(const NearPoints& near, std::uint32_t count) noexcept {
 }
 
 }  // namespace
+
+std::uint64_t NearPoints::push_bounds(const std::uint32_t* numbers, const PointBatch& batch,
+                                      std::uint64_t chosen) noexcept {
+  std::uint32_t i = count;
+  std::uint64_t left = chosen;
+  for (; left != 0 && i < kMostBounded; left &= left - 1, ++i) {
+    const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
+    index[i] = numbers[k];
+    x[i] = batch.x[k];
+    y[i] = batch.y[k];
+    z[i] = batch.z[k];
+    distance[i] = clearance[i] = static_cast<double>(batch.clearance[k]);
+  }
+  std::fill(gradient_x + count, gradient_x + i, 0.0f);
+  std::fill(gradient_y + count, gradient_y + i, 0.0f);
+  std::fill(gradient_z + count, gradient_z + i, 0.0f);
+  count = bounded = i;
+  return chosen & ~left;
+}
 
 double NearPoints::least_distance() const noexcept {
   const std::uint32_t even = count - count % kPointsAtOnce;

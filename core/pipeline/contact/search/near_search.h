@@ -23,7 +23,8 @@ namespace godobject {
 /// Step #1 of `contact`: finds the near points of a shell, those whose clearance in a field is below a search radius.
 /// With memory it looks up a node of the sphere tree, or a point, only when it may have left the free ball of its last
 /// look-up. So the cost of a cycle depends on the number of items that move far, compared with their clearance, and a
-/// little on that of the others in the front; the result does not depend on the memory.
+/// little on that of the others in the front. The memory does not change what is found, except for which near points
+/// are bounded.
 ///
 /// **Bound.** Let C = clearance(c) at the centre c of an item of radius r (a point: r = 0), let c' be where that centre
 /// is now, and x a point of the item; then |x - c| <= r + |c' - c|. The field guarantees (DistanceField) that
@@ -37,7 +38,7 @@ namespace godobject {
 /// Items that may be near are looked up in batches (DistanceField::clearances, which returns C as the bound requires).
 /// A node that may be near is replaced by its children, and replaces them once they are far. Points that may be near
 /// are looked up exactly (DistanceField::samples) within the point budget, and again in every cycle as long as they
-/// would be found at once.
+/// would be found at once. Of those that are not nearer than an exact radius a bound is looked up in place of that.
 class NearSearch {
  public:
   /// Returns the size of the memory for this shell [32-bit words].
@@ -73,6 +74,12 @@ class NearSearch {
   /// clearance below `radius` <= `longest` [m]. All near points are visited, in ascending order. `travelled`: the
   /// odometer's reading at H [m].
   ///
+  /// With memory, and unless more points are marked than `budget.points`, points beyond `exact_radius` [m] are
+  /// *bounded*: first the search calls visit_bounds(batch, index, bounded) for batches of points. Those of the bit mask
+  /// `bounded` have a free ball about them, of the radius `batch.clearance` >= `exact_radius`, and are not looked up
+  /// exactly. A point that was nearer at its last look-up is. Each near point is visited once, by one of both, unless a
+  /// bound proves a larger ball than `radius` free; both visit in ascending order.
+  ///
   /// With memory the search observes `budget`. It calls leave_out(clearance) for each point that may be near but is not
   /// looked up, with a lower bound of its clearance that is above `budget.always` [m].
   ///
@@ -87,20 +94,21 @@ class NearSearch {
   ///
   /// Cost: a share of a batch for each due node and point, a look-up for each point that may be near; at most all nodes
   /// and points. Real-time safe.
-  template <class Direction, DistanceField Field, class Visit, class LeaveOut>
+  template <class Direction, DistanceField Field, class Visit, class VisitBounds, class LeaveOut>
   bool find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double travelled,
-            double radius, const PointBudget& budget, WorkMeter& work, Visit&& visit, LeaveOut&& leave_out,
-            bool goes_on = false) noexcept {
-    const Look<Direction, Field> look{direction, field,           shell,  H,   H.rotation.toRotationMatrix(),
-                                      travelled, slope_ * radius, radius, work};
+            double radius, double exact_radius, const PointBudget& budget, WorkMeter& work, Visit&& visit,
+            VisitBounds&& visit_bounds, LeaveOut&& leave_out, bool goes_on = false) noexcept {
+    const Look<Direction, Field> look{
+        direction,       field,  shell,        H,   H.rotation.toRotationMatrix(), travelled,
+        slope_ * radius, radius, exact_radius, work};
     certain_ = 0.0;
-    if (!goes_on) next_ = 0;
+    if (!goes_on) start_over();
     if (words_.empty()) {
       const double least = search_from_root(look, visit);
       if (work.is_spent()) return false;
       certain_ = least;
     } else {
-      was_complete_ = DuePass<Direction, Field>(*this, look).run(budget, visit, leave_out);
+      was_complete_ = DuePass<Direction, Field>(*this, look).run(budget, visit, visit_bounds, leave_out);
       if (!was_complete_) return false;
       certain_ = front_.certain();
     }
@@ -108,13 +116,14 @@ class NearSearch {
   }
 
   /// Forgets where `find` stopped: no point has been visited.
-  void start_over() noexcept { next_ = 0; }
+  void start_over() noexcept { next_ = next_bound_ = 0; }
   /// Tells whether a call with `goes_on` may follow the last `find`, which returned false: not without memory, and not
   /// after a choice among the points (PointBudget).
   bool may_go_on() const noexcept { return !words_.empty() && next_ != kNotInOrder; }
 
  private:
   static constexpr std::uint32_t kNotInOrder = ~0u;
+  static constexpr float kNearer = -1.0f;  ///< a bound: the point was nearer than the exact radius at its last look-up
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   static constexpr double kFieldRounding = 1e-5;  ///< of stored distances [voxels]
   static constexpr double kAhead = 0.25;          ///< of the longest search radius
@@ -135,6 +144,7 @@ class NearSearch {
     double travelled;
     double reach;  ///< L radius: an item in a ball of at least this is not near [m]
     double radius;
+    double exact_radius;
     WorkMeter& work;
 
     /// Returns the rounding of stored distances [m].
@@ -222,10 +232,13 @@ class NearSearch {
           node_count_(static_cast<std::uint32_t>(look.shell.nodes.size())) {}
 
     /// False: the budget of work was spent.
-    template <class Visit, class LeaveOut>
-    bool run(const PointBudget& budget, Visit& visit, LeaveOut& leave_out) noexcept {
-      const bool has_all = look_at_due() && (front_.marked() <= budget.points || bound_marked()) &&
-                           look_up_marked(budget, visit, leave_out);
+    template <class Visit, class VisitBounds, class LeaveOut>
+    bool run(const PointBudget& budget, Visit& visit, VisitBounds& visit_bounds, LeaveOut& leave_out) noexcept {
+      bool has_all = look_at_due();
+      const bool has_room = front_.marked() <= budget.points;
+      bounds_some_ = has_room && look_.exact_radius < look_.radius;
+      has_all = has_all && (has_room || bound_marked()) && (!bounds_some_ || bound_outer(visit_bounds)) &&
+                look_up_marked(budget, visit, leave_out);
       replace_children();
       look_.work.add(Work::kScan, front_.block_count());  // counted last: each call with room for a look-up goes on
       return has_all;
@@ -354,6 +367,56 @@ class NearSearch {
     }
 
     float bound(std::uint32_t point) const noexcept { return std::bit_cast<float>(search_.bounds_[point]); }
+    void set_bound(std::uint32_t point, float bound) noexcept {
+      search_.bounds_[point] = std::bit_cast<std::uint32_t>(bound);
+    }
+
+    /// Looks up bounds for the marked points that were not nearer than the exact radius at their last look-up: visits
+    /// those that still are not, returns far ones to the front, and leaves the others to look_up_marked. False: as
+    /// `run`.
+    template <class VisitBounds>
+    bool bound_outer(VisitBounds& visit_bounds) noexcept {
+      const bool all = front_.for_each_marked([&](std::uint32_t i) noexcept {
+        if (i < std::max(search_.next_bound_, search_.next_) || bound(i) == kNearer) return true;
+        const std::uint32_t k = batch_.count++;
+        item_[k] = i;
+        batch_.x[k] = look_.shell.x[i];
+        batch_.y[k] = look_.shell.y[i];
+        batch_.z[k] = look_.shell.z[i];
+        if (batch_.count < PointBatch::kCapacity) return true;
+        search_.next_bound_ = i + 1;
+        visit_outer(visit_bounds);
+        return !look_.work.is_spent();
+      });
+      if (!all) return false;
+      if (batch_.count > 0) visit_outer(visit_bounds);
+      search_.next_bound_ = std::numeric_limits<std::uint32_t>::max();
+      return true;
+    }
+
+    template <class VisitBounds>
+    void visit_outer(VisitBounds& visit_bounds) noexcept {
+      look_.work.add(Work::kBounded, batch_.count);
+      look_.field.clearances(look_.H, batch_);
+      const auto exact = static_cast<float>(look_.exact_radius);
+      const auto radius = static_cast<float>(look_.radius);
+      std::uint64_t nearer = 0;
+      std::uint64_t outer = 0;
+      for (std::uint32_t k = 0; k < batch_.count; ++k) {
+        nearer |= std::uint64_t{!(batch_.clearance[k] >= exact)} << k;
+        outer |= std::uint64_t{batch_.clearance[k] >= exact && batch_.clearance[k] <= radius} << k;
+      }
+      for_each_bit(nearer, [&](std::uint32_t k) noexcept { set_bound(item_[k], kNearer); });
+      for_each_bit(first_bits(batch_.count) & ~(nearer | outer), [&](std::uint32_t k) noexcept {
+        radius_[k] = 0.0f;
+        const Front::Ball ball = ball_of(k);
+        if (!may_stay(ball, 0.0)) return;
+        front_.unmark(item_[k]);
+        insert(node_count_ + item_[k], ball);
+      });
+      if (outer != 0) visit_bounds(batch_, item_, outer);
+      batch_.count = 0;
+    }
 
     template <class Visit, class LeaveOut>
     bool look_up_marked(const PointBudget& budget, Visit& visit, LeaveOut& leave_out) noexcept {
@@ -371,7 +434,7 @@ class NearSearch {
       bool all = true;
       if (front_.marked() <= budget.points) {
         all = front_.for_each_marked([&](std::uint32_t i) noexcept {
-          if (i < search_.next_) return true;
+          if (i < search_.next_ || (bounds_some_ && bound(i) != kNearer)) return true;
           const bool goes_on = look_up(i);
           search_.next_ = i + 1;
           return goes_on;
@@ -401,13 +464,15 @@ class NearSearch {
     }
 
     /// Looks up the batch of points that may be near. Far points return to the front; points that are not near, but
-    /// would be found again at this pose, stay marked.
+    /// would be found again at this pose, stay marked. From now on bounds suffice for those beyond the exact radius.
     template <class Visit>
     void sample(Visit& visit) noexcept {
       look_.work.add(Work::kPoint, samples_.count);
       look_.field.samples(look_.H, samples_);
       const std::uint64_t stays =
           look_.visit_near(samples_, item_, visit) | clearance_below(samples_, look_.reach + look_.rounding());
+      for_each_bit(first_bits(samples_.count) & ~clearance_below(samples_, look_.exact_radius),
+                   [&](std::uint32_t k) noexcept { set_bound(item_[k], 0.0f); });
       for_each_bit(first_bits(samples_.count) & ~stays, [&](std::uint32_t k) noexcept {
         const Vector3 p(static_cast<double>(samples_.x[k]), static_cast<double>(samples_.y[k]),
                         static_cast<double>(samples_.z[k]));
@@ -449,15 +514,17 @@ class NearSearch {
     std::uint32_t opened_ = Front::kNone;     ///< nodes whose children need a look-up
     std::uint32_t replacing_ = Front::kNone;  ///< nodes that may replace their children again
     SampleBatch samples_;
-    Work kind_ = Work::kItem;  ///< of the bounds that are looked up
+    bool bounds_some_ = false;  ///< of points beyond the exact radius bounds are looked up
+    Work kind_ = Work::kItem;   ///< of the bounds that are looked up
   };
 
   std::span<std::uint32_t> words_;
   Front front_;
-  std::span<std::uint32_t> bounds_;  ///< lower bounds of the marked points' clearances, a float a point [m]
+  std::span<std::uint32_t> bounds_;  ///< lower bounds of the marked points' clearances [m], or kNearer, a float a point
   double slope_ = 1.0;               ///< the field's lipschitz()
   double ahead_{};                   ///< distance that a search without near points looks ahead [m]
   std::uint32_t next_ = 0;           ///< points before this one have been visited, if the search goes on
+  std::uint32_t next_bound_ = 0;     ///< points before this one have a bound, or are to be looked up exactly
   bool was_complete_ = true;         ///< the last search was not ended by the budget
   double certain_ = kNever;          ///< reading of the odometer until which the last search proves points free [m]
 };

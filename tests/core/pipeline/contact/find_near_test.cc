@@ -95,8 +95,8 @@ void expect_surroundings(const Direction& direction, std::uint32_t first_id, int
     Surroundings around{.free_displacement = 0.003};
     constexpr double kRadius = 0.002;
     WorkMeter work;
-    detail::find_near(search, direction, field, shell, H, 0.0, kRadius, lengths, budget_of(lengths), work, *near, *rows,
-                      around);
+    detail::find_near(search, direction, field, shell, H, 0.0, kRadius, kRadius, lengths, budget_of(lengths), work,
+                      *near, *rows, around);
     std::uint32_t k = 0, row = 0;
     double smallest = std::numeric_limits<double>::infinity();
     bool is_swallowed = false;
@@ -169,8 +169,8 @@ TEST(FindNear, CountsThePointsThatFindNoPlace) {
     Pose H;
     H.translation.z() = -depth;
     WorkMeter work;
-    detail::find_near(search, SampleDirection{}, field, shell, H, 0.0, 0.002, lengths_with(~0u), {}, work, *near, *rows,
-                      around);
+    detail::find_near(search, SampleDirection{}, field, shell, H, 0.0, 0.002, 0.002, lengths_with(~0u), {}, work, *near,
+                      *rows, around);
     EXPECT_EQ(near->count, NearPoints::kCapacity);
     EXPECT_EQ(rows->count, ContactRows::kCapacity);
     EXPECT_EQ(around.dropped, NearPoints::kCapacity - ContactRows::kCapacity);
@@ -180,6 +180,79 @@ TEST(FindNear, CountsThePointsThatFindNoPlace) {
     EXPECT_NEAR(around.smallest, 5e-4 - depth, 1e-9);
     EXPECT_EQ(around.swallowed, depth > 0.0) << "no row moves it out";
   }
+}
+
+/// Points at the heights `height(i)` above a plane, in a list that has bounds beyond the exact radius of 0.5 mm.
+struct BoundedList {
+  SampledBody body;
+  Pointshell shell;
+  std::vector<std::uint32_t> memory;
+  NearSearch search;
+  std::unique_ptr<NearPoints> near = std::make_unique<NearPoints>();
+  std::unique_ptr<ContactRows> rows = std::make_unique<ContactRows>();
+  Surroundings around{.free_displacement = 0.003};
+  WorkMeter work;
+
+  template <class Height>
+  BoundedList(int count, const Height& height)
+      : body(points(count, height), Vector3::Ones()), shell(body.pointshell()) {
+    memory.resize(NearSearch::memory(shell));
+    search.start(memory, shell, 1.0, 0.01);
+    detail::find_near(search, SampleDirection{}, AnalyticField(HalfSpace{}, kVoxel), shell, Pose{}, 0.0, 0.002, 5e-4,
+                      lengths_with(~0u), {}, work, *near, *rows, around);
+  }
+
+  template <class Height>
+  static SurfaceSamples points(int count, const Height& height) {
+    std::vector<Vector3> at;
+    for (int i = 0; i < count; ++i) at.push_back({1e-4 * (i % 150), 1e-4 * (i / 150), height(i)});
+    return {at, std::vector<Vector3>(at.size(), -Vector3::UnitZ())};
+  }
+};
+
+TEST(FindNear, LimitsTheMotionByBoundedPointsWithoutAPlace) {
+  const BoundedList at(16000, [](int i) { return i % 100 == 0 ? 3e-4 : 1e-3; });
+  EXPECT_EQ(at.near->bounded, NearPoints::kMostBounded);
+  EXPECT_EQ(at.near->count, NearPoints::kMostBounded + 160) << "nearer ones have a place";
+  EXPECT_EQ(at.rows->count, 160u) << "bounded ones have no row";
+  EXPECT_EQ(at.around.unlisted, 16000u - 160u - NearPoints::kMostBounded);
+  EXPECT_EQ(at.around.dropped, 0u);
+  EXPECT_LE(at.around.free_displacement, 1e-3);
+  EXPECT_NEAR(at.around.free_displacement, 1e-3, 1e-5);
+  EXPECT_NEAR(at.around.smallest, 3e-4, 1e-9);
+}
+
+/// Once a motion goes down by 1 mm, the bounded points that it would bring within the margin become rows, as if they
+/// had been looked up exactly, and no others.
+TEST(FindNear, MakesRowsOfTheBoundedPointsInTheWay) {
+  const AnalyticField field(HalfSpace{}, kVoxel);
+  BoundedList at(1000, [](int i) { return 6e-4 + 1e-6 * i; });
+  ASSERT_EQ(at.near->bounded, 1000u);
+  ASSERT_EQ(at.rows->count, 0u);
+  const ContactLengths lengths = lengths_with(~0u);
+  Pose down;
+  down.translation.z() = -1e-3;
+  ASSERT_FALSE(
+      look_up_bounded<SampleDirection>(field, Pose{}, Pose{}, lengths, *at.near, *at.rows, at.around, at.work));
+  ASSERT_TRUE(look_up_bounded<SampleDirection>(field, Pose{}, down, lengths, *at.near, *at.rows, at.around, at.work));
+  std::uint32_t row = 0;
+  for (std::uint32_t k = 0; k < at.near->count; ++k) {
+    const double height = at.near->point(k).z();
+    const bool in_the_way = height < 1e-3 + lengths.margin;
+    if (std::fabs(height - 1e-3 - lengths.margin) < 1e-5) {  // within the rounding of bounds
+      row += at.near->is_bound_only(k) ? 0u : 1u;
+      continue;
+    }
+    ASSERT_EQ(at.near->is_bound_only(k), !in_the_way) << height;
+    if (!in_the_way) continue;
+    ASSERT_EQ(at.near->distance[k], field.sample(at.near->point(k)).distance);
+    ASSERT_EQ(at.rows->id[row], at.near->index[k]);
+    ++row;
+  }
+  EXPECT_EQ(at.rows->count, row);
+  EXPECT_GT(row, 300u);
+  EXPECT_FALSE(look_up_bounded<SampleDirection>(field, Pose{}, down, lengths, *at.near, *at.rows, at.around, at.work))
+      << "only once";
 }
 
 /// Points without a look-up limit the motion to the bound of their clearance, over the stretch of the direction.
@@ -203,7 +276,7 @@ TEST(FindNear, CountsThePointsBeyondTheBudget) {
     const auto rows = std::make_unique<ContactRows>();
     Surroundings around{.free_displacement = 0.003};
     WorkMeter work;
-    detail::find_near(search, direction, field, shell, Pose{}, 0.0, 0.002, lengths_with(10),
+    detail::find_near(search, direction, field, shell, Pose{}, 0.0, 0.002, 0.002, lengths_with(10),
                       budget_of(lengths_with(10)), work, *near, *rows, around);
     EXPECT_EQ(near->count, 10u);
     EXPECT_EQ(rows->count, 10u);

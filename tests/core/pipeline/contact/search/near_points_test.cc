@@ -190,6 +190,51 @@ TEST(NearPoints, TakeTheChosenOnesAsLongAsThereIsRoom) {
   }
 }
 
+/// Points of which only a bound is known have it for distance and clearance, and no gradient, whatever the list held.
+TEST(NearPoints, TakeBoundsAsLongAsThereIsRoom) {
+  test::Random random(5);
+  const auto near = std::make_unique<NearPoints>();
+  for (std::uint32_t i = 0; i < NearPoints::kLength; ++i) {
+    near->gradient_x[i] = near->gradient_y[i] = near->gradient_z[i] = 0.5f;
+  }
+  std::vector<std::uint32_t> pushed;
+  std::uint32_t number = 0;
+  int refused = 0;
+  while (refused < 3) {
+    PointBatch batch;
+    std::array<std::uint32_t, PointBatch::kCapacity> numbers;
+    std::uint64_t chosen = 0;
+    for (std::uint32_t k = 0; k < PointBatch::kCapacity; ++k, ++number) {
+      numbers[k] = number;
+      batch.x[k] = static_cast<float>(number);
+      batch.y[k] = static_cast<float>(number + 1);
+      batch.z[k] = static_cast<float>(number + 2);
+      batch.clearance[k] = static_cast<float>(number + 3);
+      if (random.between(0.0, 1.0) < 0.6) chosen |= std::uint64_t{1} << k;
+    }
+    std::uint64_t expected = 0;
+    for_each_bit(chosen, [&](std::uint32_t k) {
+      if (pushed.size() == NearPoints::kMostBounded) return;
+      expected |= std::uint64_t{1} << k;
+      pushed.push_back(numbers[k]);
+    });
+    const std::uint64_t held = near->push_bounds(numbers.data(), batch, chosen);
+    ASSERT_EQ(held, expected) << "the first points until the list is full";
+    refused += held != chosen;
+  }
+  ASSERT_EQ(near->count, NearPoints::kMostBounded);
+  ASSERT_EQ(near->bounded, near->count);
+  for (std::uint32_t i = 0; i < near->count; ++i) {
+    ASSERT_EQ(near->index[i], pushed[i]);
+    ASSERT_EQ(near->point(i), Vector3(pushed[i], pushed[i] + 1, pushed[i] + 2));
+    ASSERT_EQ(near->distance[i], pushed[i] + 3);
+    ASSERT_EQ(near->clearance[i], pushed[i] + 3);
+    ASSERT_EQ(near->gradient(i), Vector3::Zero());
+    ASSERT_TRUE(near->is_bound_only(i));
+  }
+  EXPECT_EQ(near->gradient_x[near->count], 0.5f) << "nothing behind the last point";
+}
+
 TEST(SampleBits, SayWhatHoldsOfEachPoint) {
   test::Random random(5);
   for (std::uint32_t count = 0; count <= SampleBatch::kCapacity; ++count) {

@@ -42,20 +42,28 @@ struct Searcher {
   std::vector<std::uint32_t> memory;
   NearSearch search;
   std::vector<std::uint32_t> near;
+  std::vector<std::uint32_t> bounded;
   std::vector<double> left_out;
   WorkMeter work;
+  double exact_share = 1.0;  ///< exact radius over the search radius
 
   Searcher(const Field& f, const Pointshell& s, const Direction& d, bool remembers) : field(f), shell(s), direction(d) {
     if (remembers) memory.resize(NearSearch::memory(s));
     search.start(memory, s, f.lipschitz(), kLongestMotion);
   }
   bool find(const Pose& H, double travelled, double radius, const PointBudget& budget = {}, bool goes_on = false) {
-    if (!goes_on) near.clear();
+    if (!goes_on) {
+      near.clear();
+      bounded.clear();
+    }
     left_out.clear();
     return search.find(
-        direction, field, shell, H, travelled, radius, budget, work,
+        direction, field, shell, H, travelled, radius, exact_share * radius, budget, work,
         [this](const SampleBatch&, const auto& index, std::uint64_t found) {
           for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
+        },
+        [this](const PointBatch&, const auto& index, std::uint64_t found) {
+          for_each_bit(found, [&](std::uint32_t k) { bounded.push_back(index[k]); });
         },
         [this](double bound) { left_out.push_back(bound); }, goes_on);
   }
@@ -260,6 +268,50 @@ void expect_it_goes_on(double travelled_before) {
 TEST(NearSearch, GoesOnWhereTheBudgetEndedIt) {
   expect_it_goes_on(0.0);
   for (const double before : {1.0, 1e3, 1e6}) expect_it_goes_on(before);
+}
+
+/// With an exact radius, a search that the budget ends visits each point once over its calls, too.
+TEST(NearSearch, VisitsNoPointTwiceWhereItGoesOn) {
+  const Pointshell& shell = ball_shell();
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
+  Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, true);
+  Random random(37);
+  Odometer odometer;
+  Pose H = height(0.03);
+  int stops = 0;
+  int split = 0;
+  for (int step = 0; step < 300; ++step) {
+    H.translation.z() = random.between(0.015, 0.025);
+    H.rotation = (H.rotation * exp_rotation(random.in_cube(0.3))).normalized();
+    odometer.move_to(H, kBallSphere);
+    const double radius = random.between(0.2, 1.0) * kLongestMotion;
+    at.exact_share = random.between(0.1, 1.0);
+    bool goes_on = false;
+    for (int call = 0;; ++call) {
+      ASSERT_LT(call, 1000);
+      const auto units = static_cast<std::uint64_t>(random.between(1.0, 1e4));
+      const std::size_t before = goes_on ? at.bounded.size() : 0;
+      at.work.start(units);
+      const bool ends = at.find(H, odometer.travelled(), radius, {}, goes_on);
+      const std::size_t bounded = at.bounded.size() - before;
+      EXPECT_GE(at.work.spent(), cost_of(godobject::Work::kBounded) * bounded);
+      EXPECT_LE(cost_of(godobject::Work::kBounded) * bounded, units + cost_of(godobject::Work::kBounded) * 64);
+      if (ends) break;
+      goes_on = at.search.may_go_on();
+      ++stops;
+    }
+    std::vector<std::uint32_t> visited = at.near;
+    visited.insert(visited.end(), at.bounded.begin(), at.bounded.end());
+    std::sort(visited.begin(), visited.end());
+    ASSERT_EQ(std::adjacent_find(visited.begin(), visited.end()), visited.end()) << "visited twice, " << step;
+    for (std::uint32_t i = 0; i < shell.size; ++i) {
+      if (field.sample(H * shell.point(i)).clearance >= radius) continue;
+      ASSERT_TRUE(std::binary_search(visited.begin(), visited.end(), i)) << step << ", point " << i;
+    }
+    split += at.near.empty() || at.bounded.empty() ? 0 : 1;
+  }
+  EXPECT_GT(stops, 100);
+  EXPECT_GT(split, 50);
 }
 
 /// A point whose clearance exceeds the search radius by less than a rounding is not found again at the same pose:

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <vector>
@@ -24,10 +25,11 @@ std::vector<std::uint32_t> found(NearSearch& search, const Direction& direction,
   std::vector<std::uint32_t> near;
   WorkMeter work;
   search.find(
-      direction, field, shell, H, way, cut, {}, work,
+      direction, field, shell, H, way, cut, cut, {}, work,
       [&near](const SampleBatch&, const auto& index, std::uint64_t found) {
         for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
       },
+      [](const PointBatch&, const auto&, std::uint64_t) { FAIL() << "all are to be looked up exactly"; },
       [](double) { FAIL() << "the search omitted a point without a budget"; });
   return near;
 }
@@ -140,6 +142,123 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
   EXPECT_GT(near, 1000u) << "the walk meets too few near points";
 }
 
+/// Far away all points, bounded ones too, return to the front, which is known to be free.
+template <class Direction>
+void expect_all_free_far_away(NearSearch& search, const Direction& direction, const Voxelmap& field,
+                              const Pointshell& shell, Odometer& odometer, const BoundingSphere& sphere) {
+  Pose away;
+  away.translation.x() = 10.0;
+  odometer.move_to(away, sphere);
+  WorkMeter work;
+  search.find(
+      direction, field, shell, Direction::pose(away, {0.01, 0.0, 0.0}), odometer.travelled(), field.assured_clearance(),
+      0.5 * field.assured_clearance(), {}, work,
+      [](const SampleBatch&, const auto&, std::uint64_t) { FAIL() << "near, though far away"; },
+      [](const PointBatch&, const auto&, std::uint64_t) { FAIL() << "near, though far away"; }, [](double) {});
+  EXPECT_TRUE(search.is_free(odometer.travelled(), field.assured_clearance()));
+}
+
+/// A search with an exact radius visits each near point once: those that are nearer exactly, outer ones with a ball
+/// about them that meets no surface. Searches with and without an exact radius take turns.
+template <class Direction>
+void expect_near_points_or_bounds(const SceneView& scene, const Direction& direction, const BoundingSphere& sphere,
+                                  unsigned seed, double extent) {
+  const Voxelmap& field = scene.voxelmap;
+  const Pointshell& shell = scene.pointshell;
+  const double longest = field.assured_clearance();
+  std::vector<std::uint32_t> memory(NearSearch::memory(shell));
+  NearSearch search;
+  search.start(memory, shell, field.lipschitz(), longest);
+  Odometer odometer;
+  Walk walk(seed, extent);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  std::size_t exact_ones = 0;
+  std::size_t bounded_ones = 0;
+  for (int step = 0; step < 3000; ++step) {
+    const Pose& H_WS = walk.next();
+    odometer.move_to(H_WS, sphere);
+    const Pose H = Direction::pose(H_WS, {0.01, 0.0, 0.0});
+    const double radius = longest * walk.share();
+    if (step % 5 == 0) {
+      ASSERT_EQ(found(search, direction, field, shell, H, odometer.travelled(), radius),
+                near_by_brute_force(field, shell, H, radius));
+      continue;
+    }
+    const double exact_radius = radius * walk.share();
+    std::vector<std::uint32_t> near;
+    std::vector<std::uint32_t> bounded;
+    WorkMeter work;
+    search.find(
+        direction, field, shell, H, odometer.travelled(), radius, exact_radius, {}, work,
+        [&](const SampleBatch& batch, const auto& index, std::uint64_t chosen) {
+          for_each_bit(chosen, [&](std::uint32_t k) {
+            EXPECT_EQ(batch.clearance[k], field.sample(H * shell.point(index[k])).clearance);
+            near.push_back(index[k]);
+          });
+        },
+        [&](const PointBatch& batch, const auto& index, std::uint64_t chosen) {
+          EXPECT_TRUE(near.empty()) << "bounded points come first";
+          for_each_bit(chosen, [&](std::uint32_t k) {
+            bounded.push_back(index[k]);
+            const Vector3 p(static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]),
+                            static_cast<double>(batch.z[k]));
+            EXPECT_EQ(p, shell.point(index[k]));
+            const auto bound = static_cast<double>(batch.clearance[k]);
+            EXPECT_GE(bound, (1.0 - 1e-6) * exact_radius);
+            EXPECT_LE(bound, (1.0 + 1e-6) * radius);
+            const Vector3 aside = Vector3(normal(random), normal(random), normal(random)).normalized();
+            EXPECT_GT(field.sample(H * p + 0.9999 * bound * aside).distance, 0.0) << "a surface in the ball";
+          });
+        },
+        [](double) { FAIL() << "the search omitted a point without a budget"; });
+    ASSERT_TRUE(std::is_sorted(near.begin(), near.end()) && std::is_sorted(bounded.begin(), bounded.end())) << step;
+    std::vector<std::uint32_t> visited;
+    std::merge(near.begin(), near.end(), bounded.begin(), bounded.end(), std::back_inserter(visited));
+    ASSERT_EQ(std::adjacent_find(visited.begin(), visited.end()), visited.end()) << "visited twice, " << step;
+    for (const std::uint32_t i : near_by_brute_force(field, shell, H, radius)) {
+      if (std::binary_search(visited.begin(), visited.end(), i)) continue;
+      PointBatch alone;  // on the face of a brick the bound may exceed the clearance
+      alone.x[0] = shell.x[i];
+      alone.y[0] = shell.y[i];
+      alone.z[0] = shell.z[i];
+      alone.count = 1;
+      field.clearances(H, alone);
+      ASSERT_GE(static_cast<double>(alone.clearance[0]), (1.0 - 1e-6) * radius) << step << ", point " << i;
+    }
+    for (const std::uint32_t i : near_by_brute_force(field, shell, H, exact_radius / field.lipschitz())) {
+      ASSERT_TRUE(std::binary_search(near.begin(), near.end(), i)) << step << ", point " << i;
+    }
+    for (const std::uint32_t i : near) {
+      ASSERT_LT(field.sample(H * shell.point(i)).clearance, radius) << step << ", point " << i;
+    }
+    exact_ones += near.size();
+    bounded_ones += bounded.size();
+  }
+  EXPECT_GT(exact_ones, 500u);
+  EXPECT_GT(bounded_ones, 500u);
+  expect_all_free_far_away(search, direction, field, shell, odometer, sphere);
+}
+
+TEST(NearSearch, BoundsThePointsBeyondTheExactRadius) {
+  const SceneImage plate = ball_over_plate();
+  const SceneImage hole = ball_over_hole();
+  for (const SceneImage* image : {&plate, &hole}) {
+    const SceneView scene = open_scene(*image);
+    const MassModel mass = Parameters::make(scene).mass;
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      expect_near_points_or_bounds(scene, detail::SampleDirection{}, mass.sphere, seed, mass.radius);
+    }
+  }
+  const SceneView scene = open_scene(plate);
+  Parameters q;
+  q.voxel_size = scene.voxelmap.voxel_size();
+  q.mass.sphere = {Vector3(0.004, -0.003, 0.002), 0.02};
+  const ContactLengths lengths = ContactLengths::make(q);
+  const detail::FeatureDirection direction(lengths, scene.voxelmap.surface_radius(lengths.sphere.center));
+  expect_near_points_or_bounds(scene, direction, lengths.sphere, 4, 0.05);
+}
+
 /// Points that a budget made the search omit are found once there is no budget.
 TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
   const SceneImage image = ball_over_plate();
@@ -160,9 +279,9 @@ TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
     const double cut = longest * walk.share();
     if (walk.share() < 0.5) {
       search.find(
-          detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut,
+          detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut, walk.share() * cut,
           PointBudget{3, 1e-4}, work, [](const SampleBatch&, const auto&, std::uint64_t) {},
-          [&](double) { ++short_of_it; });
+          [](const PointBatch&, const auto&, std::uint64_t) {}, [&](double) { ++short_of_it; });
       continue;
     }
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
@@ -204,12 +323,16 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
     const auto clearance = [&](std::uint32_t i) {
       return scene.voxelmap.sample(R * shell.point(i) + H.translation).clearance;
     };
+    std::vector<std::uint32_t> bounded;
     std::vector<std::uint32_t> near;
     double least_left_out = std::numeric_limits<double>::infinity();
     search.find(
-        detail::SampleDirection{}, field, shell, H, odometer.travelled(), cut, budget, work,
+        detail::SampleDirection{}, field, shell, H, odometer.travelled(), cut, uniform(random) * cut, budget, work,
         [&](const SampleBatch&, const auto& index, std::uint64_t found) {
           for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
+        },
+        [&](const PointBatch&, const auto& index, std::uint64_t found) {
+          for_each_bit(found, [&](std::uint32_t k) { bounded.push_back(index[k]); });
         },
         [&](double bound) {
           ++short_of_it;
@@ -217,6 +340,9 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
           least_left_out = std::min(least_left_out, bound);
         });
     ASSERT_TRUE(std::is_sorted(near.begin(), near.end()));
+    EXPECT_TRUE(bounded.empty() || least_left_out == std::numeric_limits<double>::infinity()) << "one choice at a time";
+    near.insert(near.end(), bounded.begin(), bounded.end());
+    std::sort(near.begin(), near.end());
     const auto touches = [&](std::uint32_t i) { return clearance(i) <= 4.0 * budget.always; };
     ASSERT_LE(near.size(), budget.points + static_cast<std::size_t>(std::count_if(near.begin(), near.end(), touches)));
     for (const std::uint32_t i : near_by_brute_force(scene.voxelmap, shell, H, cut)) {
