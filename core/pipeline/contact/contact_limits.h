@@ -28,8 +28,8 @@ inline constexpr int kMostBallsOfChord = 64;
 /// behind for good.
 inline constexpr int kMostBallsOfCycle = 1 << 17;
 /// Near points beyond this share of the search radius get a bound in place of an exact look-up, and become rows only
-/// once they are in the way. ContactSubsteps::exact_radius has the lower bounds. Chosen: on the demo's paths 0.15, 0.3
-/// and 0.5 differ by less than the machine from run to run.
+/// once they are in the way. ContactSubsteps::exact_radius has the lower bounds. Chosen: on the demo's paths
+/// the times with 0.15, 0.3 and 0.5 differ by about a tenth, as those of two runs do.
 inline constexpr double kExactShare = 0.15;
 /// Most times in a sub-step that rows of left-out near points are added. Derived: each time adds the worst row of each
 /// 64 neighbours, until the rows are full.
