@@ -1,5 +1,7 @@
 #include "firmware/records/telemetry_writer.h"
 
+#include <array>
+#include <charconv>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -20,15 +22,22 @@ std::string header(int joint_count) {
   return text + ",fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m\n";
 }
 
-void append(std::string& text, const Pose& pose) {
-  const Vector3& p = pose.translation;
-  const Quaternion& q = pose.rotation;
-  fmt::format_to(std::back_inserter(text), ",{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", p.x(), p.y(), p.z(),
-                 q.w(), q.x(), q.y(), q.z());
+/// Appends a comma and each value, as printf's %.9g would write it. std::to_chars takes half the instructions of fmt
+/// here, and a row has some fifty values.
+template <class Values>
+void append(std::string& text, const Values& values, int digits = 9) {
+  std::array<char, 32> number;  // a sign, 9 digits, a point and an exponent take 16
+  for (const double value : values) {
+    const auto written = std::to_chars(number.begin(), number.end(), value, std::chars_format::general, digits);
+    text += ',';
+    text.append(number.begin(), written.ptr);
+  }
 }
 
-void append(std::string& text, const JointVector& joints, int joint_count) {
-  for (int i = 0; i < joint_count; ++i) fmt::format_to(std::back_inserter(text), ",{:.9g}", joints[i]);
+void append(std::string& text, const Pose& pose) {
+  append(text, pose.translation);
+  const Quaternion& q = pose.rotation;
+  append(text, std::array{q.w(), q.x(), q.y(), q.z()});
 }
 
 void append(std::string& text, const TelemetryRecord& record, int joint_count) {
@@ -37,15 +46,15 @@ void append(std::string& text, const TelemetryRecord& record, int joint_count) {
                  1e-9 * static_cast<double>(record.times.deadline_ns), 1e-3 * static_cast<double>(record.times.late_ns),
                  1e-3 * static_cast<double>(record.times.compute_ns), name(cycle.mode), static_cast<int>(cycle.fault),
                  cycle.share, name(cycle.outcome), cycle.contacts, cycle.lost);
-  append(text, cycle.q, joint_count);
-  append(text, cycle.qd, joint_count);
-  append(text, cycle.torque, joint_count);
+  append(text, cycle.q.head(joint_count));
+  append(text, cycle.qd.head(joint_count));
+  append(text, cycle.torque.head(joint_count));
   append(text, cycle.H_WM);
   append(text, cycle.god_object_W);
-  const Vector3& f = cycle.F_G_R.force;
-  const Vector3& t = cycle.F_G_R.torque;
-  fmt::format_to(std::back_inserter(text), ",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f.x(),
-                 f.y(), f.z(), t.x(), t.y(), t.z(), cycle.penetration, cycle.absorbed, cycle.injected_damping);
+  append(text, cycle.F_G_R.force, 6);
+  append(text, cycle.F_G_R.torque, 6);
+  append(text, std::array{cycle.penetration, cycle.absorbed, cycle.injected_damping}, 6);
+  text += '\n';
 }
 
 }  // namespace
