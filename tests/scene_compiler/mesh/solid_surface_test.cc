@@ -1,6 +1,7 @@
 #include "toolchain/scene_compiler/mesh/solid_surface.h"
 
 #include <array>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -123,6 +124,37 @@ TEST(SolidSurface, FindsWhatBruteForceFinds) {
       if (std::abs(winding - 0.5) > 1e-6) {
         EXPECT_EQ(surface.winding_number(p) > 0.5, winding > 0.5) << name << " " << winding;
       }
+    }
+  }
+}
+
+/// Meshes with holes: the winding number of caps is taken from a whole number. The points lie all about, on the caps
+/// and beside their rims, where the sum over all triangles must decide.
+TEST(SolidSurface, HasTheWindingNumberOfASumWhereMeshesAreOpen) {
+  const TriangleMesh open_box = box(Vector3d::Zero(), Vector3d::Ones(), {true, true, true, true, true, false});
+  TriangleMesh pipe = box(Vector3d::Zero(), Vector3d::Ones(), {true, true, true, true, false, false});
+  TriangleMesh doubled = open_box;  // its rim counts twice
+  doubled.triangles.insert(doubled.triangles.end(), open_box.triangles.begin(), open_box.triangles.end());
+  TriangleMesh holed = test::ball_mesh(0.5, 6);
+  for (const std::ptrdiff_t at : {30, 40, 41, 60}) holed.triangles.erase(holed.triangles.begin() + at);
+  for (Vector3d& vertex : holed.vertices) vertex += Vector3d::Constant(0.5);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-0.3, 1.3);
+  std::uniform_real_distribution<double> beside(-0.01, 0.01);
+  for (const TriangleMesh& mesh : {open_box, pipe, doubled, holed, turned_inside_out(open_box)}) {
+    const SolidSurface surface(mesh, SurfaceKind::kSolid, 0.01);
+    ASSERT_FALSE(surface.sealed());
+    for (int i = 0; i < 3000; ++i) {
+      Vector3d p(unit(random), unit(random), unit(random));
+      if (i % 3 == 0) p.z() = 1.0;  // the lid of the boxes
+      if (i % 3 == 1) {
+        p = surface.mesh().vertices[random() % surface.mesh().vertices.size()] +
+            Vector3d(beside(random), beside(random), beside(random));
+      }
+      const double sum = surface.solid_triangles().winding_number(p, std::numeric_limits<double>::infinity());
+      ASSERT_NEAR(surface.winding_number(p), sum, 0.08) << p.transpose();
+      if (std::abs(sum - 0.5) < 1e-6) continue;
+      ASSERT_EQ(surface.winding_number(p) > 0.5, sum > 0.5) << p.transpose();
     }
   }
 }

@@ -3,17 +3,54 @@
 #include <cstdlib>
 #include <utility>
 
+#include "toolchain/scene_compiler/mesh/components.h"
 #include "toolchain/scene_compiler/mesh/mesh_edges.h"
 
 namespace godobject::scene_compiler {
 
 using Eigen::Vector3d;
 
+namespace {
+
+/// An edge with its balance: how many more triangles run from a to b than back.
+struct OpenEdge {
+  std::uint32_t a, b;
+  std::int32_t balance;
+};
+
+/// Returns the caps of an open boundary.
+TriangleTree caps_of(const TriangleMesh& mesh, const std::vector<OpenEdge>& open) {
+  TriangleMesh edges{mesh.vertices, {}};
+  for (const OpenEdge& edge : open) edges.triangles.push_back({edge.a, edge.b, edge.b});
+  const Components sets = connected_components(edges);
+  std::vector<Vector3d> middle(sets.count, Vector3d::Zero());
+  std::vector<double> count(sets.count);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const std::uint32_t set = sets.of_triangle[i];
+    middle[set] += 0.5 * (mesh.vertices[open[i].a] + mesh.vertices[open[i].b]);
+    count[set] += 1.0;
+  }
+  std::vector<TriangleTree::Triangle> caps;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const std::uint32_t set = sets.of_triangle[i];
+    const bool forward = open[i].balance > 0;  // a cap runs along its edge the other way
+    const Vector3d& from = mesh.vertices[forward ? open[i].b : open[i].a];
+    const Vector3d& to = mesh.vertices[forward ? open[i].a : open[i].b];
+    for (std::int32_t k = 0; k < std::abs(open[i].balance); ++k) {
+      caps.push_back({from, to, middle[set] / count[set], static_cast<std::uint32_t>(caps.size())});
+    }
+  }
+  return TriangleTree(std::move(caps));
+}
+
+}  // namespace
+
 OpenBoundary open_boundary(const TriangleMesh& mesh, const std::vector<SolidSurface::Component>& components,
                            const std::vector<std::uint32_t>& component_of) {
   const MeshEdges edges(mesh);
   OpenBoundary boundary;
-  std::vector<TriangleTree::Triangle> open;
+  std::vector<TriangleTree::Triangle> triangles;
+  std::vector<OpenEdge> open;
   for (const MeshEdges::Edge& edge : edges.all()) {
     std::int32_t balance = 0;
     for (const MeshEdges::Side& side : edges.sides(edge)) {
@@ -23,10 +60,12 @@ OpenBoundary open_boundary(const TriangleMesh& mesh, const std::vector<SolidSurf
     if (balance == 0) continue;
     const Vector3d& a = mesh.vertices[edge.low];
     const Vector3d& b = mesh.vertices[edge.high];
-    open.push_back({a, b, b, static_cast<std::uint32_t>(open.size())});
+    triangles.push_back({a, b, b, static_cast<std::uint32_t>(open.size())});
+    open.push_back({edge.low, edge.high, balance});
     boundary.length += std::abs(balance) * (b - a).norm();
   }
-  boundary.edges = TriangleTree(std::move(open));
+  boundary.edges = TriangleTree(std::move(triangles));
+  boundary.caps = caps_of(mesh, open);
   return boundary;
 }
 

@@ -12,6 +12,9 @@ namespace godobject::scene_compiler {
 struct OpenBoundary {
   TriangleTree edges;   ///< as triangles without area
   double length = 0.0;  ///< each edge counts as often as its sides do not cancel [m]
+  /// Triangles from the edges to the middle of each connected set of them. Solids and caps together have no boundary:
+  /// around a place their winding number is whole, and that of the solids is less by that of the caps.
+  TriangleTree caps;
 };
 
 OpenBoundary open_boundary(const TriangleMesh& mesh, const std::vector<SolidSurface::Component>& components,

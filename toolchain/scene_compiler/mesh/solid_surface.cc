@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -108,11 +109,13 @@ struct SolidSurface::Impl {
   TriangleTree solids;
   TriangleTree shells;
   OpenBoundary boundary;
+  Box box;  ///< around the mesh
 
   enum class Kinds : std::uint8_t { kAll, kSolids, kShells };
   TriangleTree tree_of(Kinds kinds) const;
   bool is_solid_as_given() const;
   void classify(SurfaceKind kind);
+  std::optional<int> crossings(const Vector3d& p) const;
   double winding_number(const Vector3d& p) const;
 };
 
@@ -187,10 +190,37 @@ void SolidSurface::Impl::classify(SurfaceKind kind) {
   solids = tree_of(Kinds::kSolids);
 }
 
+/// Returns the winding number of solids and caps around p, by the triangles that a path from outside crosses. Empty if
+/// rounding might decide it. The path runs to the nearest side of the box around the mesh, so that it crosses few. It
+/// is oblique, because edges of engineered parts lie along the axes.
+std::optional<int> SolidSurface::Impl::crossings(const Vector3d& p) const {
+  constexpr double kBeyond = 1e-3;               // of the box
+  constexpr double kAside[] = {0.0137, 0.0219};  // chosen, of the path along the axis: without a simple ratio
+  if (!p.allFinite()) return {};
+  int low_axis = 0;
+  int high_axis = 0;
+  const double to_low = (p - box.low).minCoeff(&low_axis);
+  const double to_high = (box.high - p).minCoeff(&high_axis);
+  if (to_low < 0.0 || to_high < 0.0) return 0;
+  const int axis = to_low < to_high ? low_axis : high_axis;
+  const double length = std::min(to_low, to_high) + kBeyond * box.longest();
+  Vector3d outside = p;
+  outside[axis] += to_low < to_high ? -length : length;
+  outside[(axis + 1) % 3] += kAside[0] * length;
+  outside[(axis + 2) % 3] += kAside[1] * length;
+  const std::optional<int> of_solids = solids.winding_change(outside, p);
+  const std::optional<int> of_caps = of_solids ? boundary.caps.winding_change(outside, p) : std::nullopt;
+  return of_caps ? std::optional(*of_solids + *of_caps) : std::nullopt;
+}
+
 double SolidSurface::Impl::winding_number(const Vector3d& p) const {
-  double winding = solids.winding_number(p, kOpening);
-  if (std::abs(winding - 0.5) < kUnsure) winding = solids.winding_number(p, kFinerOpening);
-  if (std::abs(winding - 0.5) < kVeryUnsure) winding = solids.winding_number(p, kInfinity);
+  const std::optional<int> crossed = crossings(p);
+  const auto sum = [&](double opening) {
+    return crossed ? *crossed - boundary.caps.winding_number(p, opening) : solids.winding_number(p, opening);
+  };
+  double winding = sum(kOpening);
+  if (std::abs(winding - 0.5) < kUnsure) winding = sum(kFinerOpening);
+  if (std::abs(winding - 0.5) < kVeryUnsure) winding = sum(kInfinity);
   return winding;
 }
 
@@ -200,6 +230,7 @@ SolidSurface::SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness
   impl_->thickness = thickness;
   impl_->dilation = dilation;
   impl_->classify(kind);
+  impl_->box = Box::around(impl_->mesh.vertices);
   impl_->boundary = open_boundary(impl_->mesh, impl_->components, impl_->component_of);
   impl_->shells = impl_->tree_of(Impl::Kinds::kShells);
 }
