@@ -34,8 +34,19 @@ class PointTree {
         });
   }
 
+  /// A box around some of the points.
+  struct Box {
+    Eigen::Vector3d low, high;
+    double half_diagonal;
+
+    /// The square of the distance from p; 0 inside.
+    double squared_distance(const Eigen::Vector3d& p) const {
+      return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
+    }
+  };
+
   /// Calls visit(index, squared distance) for every point at most `radius` from p, except points in boxes with
-  /// skip(low, high).
+  /// skip(box).
   template <class Skip, class Visit>
   void within(const Eigen::Vector3d& p, double radius, const Skip& skip, const Visit& visit) const {
     if (size() > 0) descend_boxes(p, Range{0, 0, size()}, radius * radius, skip, visit);
@@ -57,7 +68,7 @@ class PointTree {
   const Eigen::Vector3d& point(std::uint32_t entry) const { return entries_[entry].point; }
   std::uint32_t index(std::uint32_t entry) const { return entries_[entry].index; }
 
-  /// Calls visit(run) for the leaves of the tree, except those in boxes with skip(low, high).
+  /// Calls visit(run) for the leaves of the tree, except those in boxes with skip(box).
   template <class Skip, class Visit>
   void leaves(const Skip& skip, const Visit& visit) const {
     if (size() > 0) descend_to_leaves(Range{0, 0, size()}, skip, visit);
@@ -101,9 +112,6 @@ class PointTree {
     double value = 0.0;
     int axis = 0;
   };
-  struct Box {
-    Eigen::Vector3d low, high;
-  };
   struct Range {
     std::uint32_t node, begin, end;
     Range lower() const { return {2 * node + 1, begin, middle()}; }
@@ -133,7 +141,7 @@ class PointTree {
   void descend_boxes(const Eigen::Vector3d& p, const Range& range, double bound, const Skip& skip,
                      const Visit& visit) const {
     const Box& box = boxes_[range.node];
-    if ((box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm() > bound || skip(box.low, box.high)) return;
+    if (box.squared_distance(p) > bound || skip(box)) return;
     if (range.leaf()) {
       for (std::uint32_t i = range.begin; i < range.end; ++i) {
         const double squared = (entries_[i].point - p).squaredNorm();
@@ -153,7 +161,7 @@ class PointTree {
   template <class Skip, class Visit>
   void descend_to_leaves(const Range& range, const Skip& skip, const Visit& visit) const {
     const Box& box = boxes_[range.node];
-    if (skip(box.low, box.high)) return;
+    if (skip(box)) return;
     if (range.leaf()) {
       visit(Run{range.begin, range.end});
       return;

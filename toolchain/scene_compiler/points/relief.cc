@@ -110,12 +110,12 @@ std::vector<SurfaceSample> Relief::fine_places(const OuterSurface& outer, const 
   return fine;
 }
 
-bool Relief::may_fall(std::size_t i, const Vector3d& low, const Vector3d& high, double depth, double radius) const {
-  const Vector3d half = 0.5 * (high - low);
-  const Vector3d center = low + half - places_[i].point;
+bool Relief::may_fall(std::size_t i, const PointTree::Box& box, double depth, double radius) const {
+  const Vector3d half = 0.5 * (box.high - box.low);
+  const Vector3d center = box.low + half - places_[i].point;
   const double center_depth = center.dot(inward_[i]);
   if (center_depth + half.dot(inward_[i].cwiseAbs()) <= depth) return false;
-  const double reach = radius + half.norm();
+  const double reach = radius + box.half_diagonal;
   return (1.0 - kSquareRounding) * center.squaredNorm() - center_depth * center_depth <= reach * reach;
 }
 
@@ -142,9 +142,7 @@ bool Relief::falls(std::size_t i, double radius, const Fall& fall) const {
   const SurfaceSample& place = places_[i];
   const auto falls_in = [&](const PointTree& tree, double within) {
     bool found = false;
-    const auto skip = [&](const Vector3d& low, const Vector3d& high) {
-      return found || !may_fall(i, low, high, fall.depth, within);
-    };
+    const auto skip = [&](const PointTree::Box& box) { return found || !may_fall(i, box, fall.depth, within); };
     // a search finds a steep wall on its way down: surface far below the plane is not looked up
     tree.within(place.point, std::hypot(within, fall.seen), skip, [&](std::uint32_t j, double squared_distance) {
       const double depth = depth_below(i, places_[j].point);
@@ -188,11 +186,11 @@ Relief::Vicinity::Bounds Relief::Vicinity::bounds_of(const Run& places) const {
 Relief::Vicinity::Cloud Relief::Vicinity::near(const PointTree& tree, const Bounds& places, double radius) const {
   const double furthest = (std::hypot(radius, fall_.seen) + places.radius) * (1.0 + kSquareRounding);
   const Vector3d across = places.inward.cwiseAbs();
-  const auto skip = [&](const Vector3d& low, const Vector3d& high) {
-    const Vector3d half = 0.5 * (high - low);
-    const Vector3d middle = low + half - places.center;
+  const auto skip = [&](const PointTree::Box& box) {
+    const Vector3d half = 0.5 * (box.high - box.low);
+    const Vector3d middle = box.low + half - places.center;
     if ((middle.cwiseAbs() - half).cwiseMax(0.0).squaredNorm() > furthest * furthest) return true;
-    const double size = half.norm();
+    const double size = box.half_diagonal;
     const double turned = (places.turned + kSquareRounding) * std::min(middle.norm() + size, furthest);
     const double depth = middle.dot(places.inward);
     if (depth + half.dot(across) + turned + places.above <= fall_.depth) return true;
@@ -222,7 +220,7 @@ void Relief::Vicinity::add(const PointTree& tree, const PointTree::Run& run, con
     cloud.candidates.push_back({tree.point(entry), place});
   }
   const auto end = static_cast<std::uint32_t>(cloud.candidates.size());
-  if (end > begin) cloud.parts.push_back({box.low, box.high, begin, end});
+  if (end > begin) cloud.parts.push_back({{box.low, box.high, 0.5 * box.diagonal()}, begin, end});
 }
 
 bool Relief::Vicinity::falls(std::size_t place, double radius) {
@@ -232,7 +230,7 @@ bool Relief::Vicinity::falls(std::size_t place, double radius) {
 bool Relief::Vicinity::falls_in(Cloud& cloud, std::size_t i, double radius) const {
   const double furthest = std::hypot(radius, fall_.seen);
   for (Part& part : cloud.parts) {
-    if (!relief_.may_fall(i, part.low, part.high, fall_.depth, radius)) continue;
+    if (!relief_.may_fall(i, part.box, fall_.depth, radius)) continue;
     for (std::uint32_t k = part.begin; k < part.end; ++k) {
       if (!shows_fall(i, cloud.candidates[k], radius, furthest)) continue;
       std::swap(part, cloud.parts.front());  // the next place finds it soon
@@ -256,17 +254,16 @@ bool Relief::Vicinity::shows_fall(std::size_t i, const Candidate& candidate, dou
 double Relief::level_radius(std::size_t i, const Fall& fall, double limit) const {
   const SurfaceSample& place = places_[i];
   const auto radius_in = [&](const PointTree& tree, double most) {
-    const double furthest = std::hypot(most, fall.seen);
-    const auto skip = [&](const Vector3d& low, const Vector3d& high) {
-      if (!may_fall(i, low, high, fall.depth, most)) return true;
-      const Vector3d& at = place.point;
-      const double looked_at = std::hypot(most, fall.seen);
-      return (low - at).cwiseMax(at - high).cwiseMax(0.0).squaredNorm() >= looked_at * looked_at;
+    double looked_at = most * most + fall.seen * fall.seen;  // squared
+    const auto skip = [&](const PointTree::Box& box) {
+      return box.squared_distance(place.point) >= looked_at || !may_fall(i, box, fall.depth, most);
     };
-    tree.within(place.point, furthest, skip, [&](std::uint32_t j, double squared_distance) {
+    tree.within(place.point, std::sqrt(looked_at), skip, [&](std::uint32_t j, double squared_distance) {
       const double depth = depth_below(i, places_[j].point);
       if (depth <= fall.depth || squared_distance - depth * depth >= most * most) return;
-      if (same_side(place, places_[j])) most = std::sqrt(std::max(0.0, squared_distance - depth * depth));
+      if (!same_side(place, places_[j])) return;
+      most = std::sqrt(std::max(0.0, squared_distance - depth * depth));
+      looked_at = most * most + fall.seen * fall.seen;
     });
     return most;
   };
