@@ -101,7 +101,7 @@ MeshSurface::Nearest MeshSurface::nearest_of(std::uint32_t triangle, const Vecto
   const Triangle& t = triangles_[triangle];
   const Vector3 &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
   const auto at = [&](const Vector3& point, const Vector3& normal) {
-    return Nearest{point, normal, (p - point).squaredNorm()};
+    return Nearest{point, &normal, (p - point).squaredNorm()};
   };
   const Vector3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -125,16 +125,23 @@ MeshSurface::Nearest MeshSurface::nearest_of(std::uint32_t triangle, const Vecto
 }
 
 MeshSurface::Nearest MeshSurface::nearest(const Vector3& p, double within) const {
+  struct Open {
+    std::uint32_t node;
+    double squared;  ///< distance of its box
+  };
+  const auto open = [&](std::uint32_t node) {
+    return Open{node, squared_distance_to_box(boxes_[node].low, boxes_[node].high, p)};
+  };
   Nearest best;
   best.squared = within;
   constexpr int kDeepest = 64;
-  std::uint32_t stack[kDeepest];
+  Open stack[kDeepest];
   int depth = 0;
-  stack[depth++] = 0;
+  stack[depth++] = open(0);
   while (depth > 0) {
-    const std::uint32_t node = stack[--depth];
-    const Box& box = boxes_[node];
-    if (squared_distance_to_box(box.low, box.high, p) >= best.squared) continue;
+    const Open next = stack[--depth];
+    if (next.squared >= best.squared) continue;
+    const Box& box = boxes_[next.node];
     if (box.count > 0) {
       for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {
         const Nearest here = nearest_of(order_[i], p);
@@ -142,18 +149,18 @@ MeshSurface::Nearest MeshSurface::nearest(const Vector3& p, double within) const
       }
       continue;
     }
-    const std::uint32_t left = 2 * node + 1, right = 2 * node + 2;
-    const bool left_first = squared_distance_to_box(boxes_[left].low, boxes_[left].high, p) <
-                            squared_distance_to_box(boxes_[right].low, boxes_[right].high, p);
-    stack[depth++] = left_first ? right : left;
-    stack[depth++] = left_first ? left : right;
+    Open near = open(2 * next.node + 1);
+    Open far = open(2 * next.node + 2);
+    if (!(near.squared < far.squared)) std::swap(near, far);
+    if (far.squared < best.squared) stack[depth++] = far;
+    if (near.squared < best.squared) stack[depth++] = near;
   }
   return best;
 }
 
 double MeshSurface::signed_distance(const Nearest& near, const Vector3& p) {
   const double distance = std::sqrt(near.squared);
-  return (p - near.point).dot(near.normal) < 0.0 ? -distance : distance;
+  return near.normal != nullptr && (p - near.point).dot(*near.normal) < 0.0 ? -distance : distance;
 }
 
 double MeshSurface::distance(const Vector3& p) const { return signed_distance(nearest(p), p); }
@@ -167,10 +174,11 @@ double MeshSurface::distance_within(const Vector3& p, double most) const {
 
 Vector3 MeshSurface::gradient(const Vector3& p) const {
   const Nearest near = nearest(p);
+  if (near.normal == nullptr) return Vector3::Zero();  // no triangle is at a finite distance
   const Vector3 away = p - near.point;
   const double length = away.norm();
-  if (!(length > 0.0)) return near.normal.normalized();
-  return away.dot(near.normal) < 0.0 ? Vector3(-away / length) : Vector3(away / length);
+  if (!(length > 0.0)) return near.normal->normalized();
+  return away.dot(*near.normal) < 0.0 ? Vector3(-away / length) : Vector3(away / length);
 }
 
 bool MeshSurface::triangle_meets(std::uint32_t triangle, const Vector3& p0, const Vector3& d) const {

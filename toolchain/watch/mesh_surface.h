@@ -39,7 +39,7 @@ class MeshSurface final : public Oracle {
   };
   struct Nearest {
     Vector3 point;
-    Vector3 normal;  ///< outward, of the feature that holds the point; not unit
+    const Vector3* normal = nullptr;  ///< outward, of the feature that holds the point; not unit; null: no point
     double squared = 0.0;
   };
 

@@ -41,13 +41,15 @@ StoredField::StoredField(std::span<const std::byte> image, const FieldSections& 
     : index_(section_of<std::uint32_t>(image, sections.index)),
       bricks_(section_of<format::Brick>(image, sections.bricks)),
       refined_(section_of<format::Refined>(image, sections.refined)),
-      facets_(section_of<format::Facet>(image, sections.facets)),
       facet_sets_(section_of<format::FacetSet>(image, sections.facet_sets)),
       facet_numbers_(section_of<std::uint32_t>(image, sections.facet_numbers)),
       exact_(section_of<format::ExactBrick>(image, sections.exact)) {
   const auto grid = section_bytes(image, sections.grid);
   if (grid.size() != sizeof(grid_)) throw std::runtime_error("the scene image has no such field");
   std::memcpy(&grid_, grid.data(), sizeof(grid_));
+  const auto facets = section_of<format::Facet>(image, sections.facets);
+  facets_.reserve(facets.size());
+  for (const format::Facet& facet : facets) facets_.push_back(measured(facet));
   lipschitz_ = steepest();
 }
 
@@ -158,36 +160,57 @@ Slope StoredField::blend(const Place& place, const Vector3& p, const Slope& inte
   return value;
 }
 
+StoredField::Facet StoredField::measured(const format::Facet& facet) {
+  const auto single = [](const float(&v)[3]) { return Vector3(v[0], v[1], v[2]); };
+  Facet measured;
+  measured.up = Vector3(facet.plane[0][0], facet.plane[1][0], facet.plane[2][0]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3 from = vector(facet.vertex[k]);
+    const Vector3 edge = vector(facet.vertex[(k + 1) % 3]) - from;
+    const Vector3 along = edge.normalized();
+    measured.edges[k] = {from,
+                         along,
+                         edge.norm(),
+                         measured.up.cross(along),
+                         single(facet.edge_normal[k]),
+                         single(facet.vertex_normal[k])};
+  }
+  return measured;
+}
+
 /// The distance to all facets of a set, by the places nearest to p: of a plane, of three edges, of three vertices.
 Slope StoredField::from_facets(const format::FacetSet& set, const Vector3& p) const {
-  double least = HUGE_VAL;
-  Vector3 away = Vector3::Zero(), normal = Vector3::Zero();
+  double least = HUGE_VAL;  // squared
+  Vector3 away = Vector3::Zero();
+  const Vector3* normal = nullptr;
   const auto compare = [&](const Vector3& from_place, const Vector3& of_place) {
-    if (from_place.norm() >= least) return;
-    least = from_place.norm();
+    const double squared = from_place.squaredNorm();
+    if (squared >= least) return;
+    least = squared;
     away = from_place;
-    normal = of_place;
+    normal = &of_place;
   };
-  const auto single = [](const float(&v)[3]) { return Vector3(v[0], v[1], v[2]); };
   for (const std::uint32_t number : facet_numbers_.subspan(set.first, set.count)) {
-    const format::Facet& facet = facets_[number];
-    const Vector3 up(facet.plane[0][0], facet.plane[1][0], facet.plane[2][0]);
+    const Facet& facet = facets_[number];
     bool above = true;
-    for (int k = 0; k < 3; ++k) {
-      const Vector3 from = vector(facet.vertex[k]);
-      const Vector3 along = (vector(facet.vertex[(k + 1) % 3]) - from).normalized();
-      const double length = (vector(facet.vertex[(k + 1) % 3]) - from).norm();
-      const double t = along.dot(p - from);
-      above = above && up.cross(along).dot(p - from) >= 0.0;
-      compare(p - from, single(facet.vertex_normal[k]));
-      if (t > 0.0 && t < length) compare(p - from - t * along, single(facet.edge_normal[k]));
+    for (const Edge& edge : facet.edges) {
+      const Vector3 from_vertex = p - edge.from;
+      const double t = edge.along.dot(from_vertex);
+      above = above && edge.inward.dot(from_vertex) >= 0.0;
+      compare(from_vertex, edge.vertex_normal);
+      if (t > 0.0 && t < edge.length) compare(from_vertex - t * edge.along, edge.normal);
     }
-    if (above) compare(up.dot(p - vector(facet.vertex[0])) * up, up);
+    if (above) compare(facet.up.dot(p - facet.edges[0].from) * facet.up, facet.up);
   }
   Slope slope;
-  const double side = away.dot(normal) >= 0.0 ? 1.0 : -1.0;
-  slope.distance = side * least;
-  slope.gradient = least > 1e-12 ? Vector3(side / least * away) : normal.normalized();
+  const double distance = std::sqrt(least);
+  const double side = normal == nullptr || away.dot(*normal) >= 0.0 ? 1.0 : -1.0;
+  slope.distance = side * distance;
+  if (distance > 1e-12) {
+    slope.gradient = side / distance * away;
+  } else if (normal != nullptr) {
+    slope.gradient = normal->normalized();
+  }
   return slope;
 }
 

@@ -48,6 +48,21 @@ class StoredField final : public Oracle {
     Vector3 at = Vector3::Zero();
   };
 
+  /// The edge of a facet from its vertex k, with the normals of both.
+  struct Edge {
+    Vector3 from;
+    Vector3 along;   ///< unit
+    double length;   ///< [m]
+    Vector3 inward;  ///< in the facet's plane
+    Vector3 normal;  ///< of the edge
+    Vector3 vertex_normal;
+  };
+  struct Facet {
+    Vector3 up;  ///< unit
+    std::array<Edge, 3> edges;
+  };
+
+  static Facet measured(const format::Facet& facet);
   Place descend(std::uint32_t entry, Vector3 at) const;
   static Slope interpolate(const Place& place);
   Slope blend(const Place& place, const Vector3& p, const Slope& interpolated) const;
@@ -58,7 +73,7 @@ class StoredField final : public Oracle {
   std::span<const std::uint32_t> index_;
   std::span<const format::Brick> bricks_;
   std::span<const format::Refined> refined_;
-  std::span<const format::Facet> facets_;
+  std::vector<Facet> facets_;
   std::span<const format::FacetSet> facet_sets_;
   std::span<const std::uint32_t> facet_numbers_;
   std::span<const format::ExactBrick> exact_;
