@@ -32,14 +32,14 @@ begin_at_the_teapot() {  # SECOND of the path
 
 # Runs the arm into contact: nothing is late or lost. HIL_SECONDS of 30 or more follows the whole path, after the sign test.
 run_seven_joints() {  # fd|classical
-  local seconds=${HIL_SECONDS:-5} code=0
+  local seconds=${HIL_SECONDS:-4} code=0
   configure_seven_joints "$1"
   if [ "$seconds" -ge 30 ]; then
     sed -i "s|^slower = .*|slower = $(((seconds - 7) / 2))|" "$config"
   else
     begin_at_the_teapot 0.393
   fi
-  start_device 1.8  # seven joints take the controller longer to check
+  start_device 1.5  # seven joints take the controller longer to check
   "$HIL_BIN/godobject-controller" "$config" --scene "$HIL_SCENE" --bus "$devices" --duration "$seconds" \
     >"$HIL_WORK/controller" 2>&1 || code=$?
   sed -E "s/^.* us(, | of |\$).*/& ($HIL_CLOCK)/" "$HIL_WORK/controller"

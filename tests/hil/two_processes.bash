@@ -25,7 +25,7 @@ fail() {
 
 # Starts the arm, at a lower priority than the controller's, because the controller sleeps while the arm answers.
 start_device() {  # [SECONDS until the operator holds the enable switch: shortly after the controller begins to wait for it]
-  chrt -f 70 "$HIL_BIN/godobject-simdevice" "$config" --scene "$HIL_SCENE" --bus "$devices" --enable-after "${1:-1.1}" \
+  chrt -f 70 "$HIL_BIN/godobject-simdevice" "$config" --scene "$HIL_SCENE" --bus "$devices" --enable-after "${1:-0.9}" \
     >"$HIL_WORK/device" 2>&1 &
   device=$!
   sleep 0.1
