@@ -1,8 +1,12 @@
 #include "toolchain/scene_compiler/mesh/solid_surface.h"
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numbers>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +14,7 @@
 #include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/field/distance_probe.h"
+#include "toolchain/scene_compiler/mesh/open_boundary.h"
 
 namespace godobject::scene_compiler::solid_surface_test {
 namespace {
@@ -128,35 +133,123 @@ TEST(SolidSurface, FindsWhatBruteForceFinds) {
   }
 }
 
-/// Meshes with holes: the winding number of caps is taken from a whole number. The points lie all about, on the caps
-/// and beside their rims, where the sum over all triangles must decide.
+/// A cup with flat sides around the z axis: `sides` of them, each of `kRings` quads, and a bottom at z = 0 if asked
+/// for.
+TriangleMesh cup(std::uint32_t sides, double radius, double height, bool has_bottom) {
+  constexpr std::uint32_t kRings = 9;
+  TriangleMesh mesh;
+  for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const double angle = 0.1 + 2.0 * std::numbers::pi * i / sides;
+      mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height * ring / kRings);
+    }
+  }
+  for (std::uint32_t ring = 0; ring < kRings; ++ring) {
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const std::uint32_t low = ring * sides + i;
+      const std::uint32_t next = ring * sides + (i + 1) % sides;
+      mesh.triangles.push_back({low, next, next + sides});
+      mesh.triangles.push_back({low, next + sides, low + sides});
+    }
+  }
+  for (std::uint32_t i = 1; has_bottom && i + 1 < sides; ++i) mesh.triangles.push_back({0, i + 1, i});
+  return mesh;
+}
+
+/// The largest error of a winding number that SolidSurface allows for.
+constexpr double kMostWindingError = 0.08;
+
+void expect_winding_of_a_sum(const SolidSurface& surface, const Vector3d& p) {
+  const double sum = surface.solid_triangles().winding_number(p, std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(surface.winding_number(p), sum, kMostWindingError) << p.transpose();
+  if (std::abs(sum - 0.5) < 1e-6) return;
+  EXPECT_EQ(surface.winding_number(p) > 0.5, sum > 0.5) << p.transpose();
+}
+
+/// Open meshes with few caps. The points are all around, in the plane of the rim, and beside the rim.
 TEST(SolidSurface, HasTheWindingNumberOfASumWhereMeshesAreOpen) {
-  const TriangleMesh open_box = box(Vector3d::Zero(), Vector3d::Ones(), {true, true, true, true, true, false});
-  TriangleMesh pipe = box(Vector3d::Zero(), Vector3d::Ones(), {true, true, true, true, false, false});
-  TriangleMesh doubled = open_box;  // its rim counts twice
-  doubled.triangles.insert(doubled.triangles.end(), open_box.triangles.begin(), open_box.triangles.end());
-  TriangleMesh holed = test::ball_mesh(0.5, 6);
-  for (const std::ptrdiff_t at : {30, 40, 41, 60}) holed.triangles.erase(holed.triangles.begin() + at);
-  for (Vector3d& vertex : holed.vertices) vertex += Vector3d::Constant(0.5);
+  const TriangleMesh open = cup(24, 0.5, 1.0, true);
+  TriangleMesh doubled = open;  // its rim counts twice
+  doubled.triangles.insert(doubled.triangles.end(), open.triangles.begin(), open.triangles.end());
+  TriangleMesh holed = test::ball_mesh(0.5, 20);
+  for (const std::ptrdiff_t at : {130, 180, 181, 320}) holed.triangles.erase(holed.triangles.begin() + at);
   std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> unit(-0.3, 1.3);
+  std::uniform_real_distribution<double> unit(-0.6, 1.3);
   std::uniform_real_distribution<double> beside(-0.01, 0.01);
-  for (const TriangleMesh& mesh : {open_box, pipe, doubled, holed, turned_inside_out(open_box)}) {
+  for (const TriangleMesh& mesh : {open, cup(24, 0.5, 1.0, false), doubled, holed, turned_inside_out(open)}) {
     const SolidSurface surface(mesh, SurfaceKind::kSolid, 0.01);
     ASSERT_FALSE(surface.sealed());
     for (int i = 0; i < 3000; ++i) {
       Vector3d p(unit(random), unit(random), unit(random));
-      if (i % 3 == 0) p.z() = 1.0;  // the lid of the boxes
+      if (i % 3 == 0) p.z() = 1.0;
       if (i % 3 == 1) {
         p = surface.mesh().vertices[random() % surface.mesh().vertices.size()] +
             Vector3d(beside(random), beside(random), beside(random));
       }
-      const double sum = surface.solid_triangles().winding_number(p, std::numeric_limits<double>::infinity());
-      ASSERT_NEAR(surface.winding_number(p), sum, 0.08) << p.transpose();
-      if (std::abs(sum - 0.5) < 1e-6) continue;
-      ASSERT_EQ(surface.winding_number(p) > 0.5, sum > 0.5) << p.transpose();
+      expect_winding_of_a_sum(surface, p);
     }
   }
+}
+
+/// The middle of a flat rim is rounded, so that its caps may reach beyond the mesh by some roundings.
+TEST(SolidSurface, HasTheWindingNumberOfASumOneRoundingFromARim) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> unit(-0.02, 0.02);
+  for (const std::uint32_t sides : {12u, 24u, 64u}) {
+    for (int millimetres = 40; millimetres < 200; millimetres += 3) {
+      const double height = 0.001 * millimetres;
+      const SolidSurface surface(cup(sides, 0.02, height, true), SurfaceKind::kSolid, 0.01);
+      for (int i = 0; i < 8; ++i) {
+        double z = height;
+        for (int step = 0; step < 1 + i % 4; ++step) z = std::nextafter(z, i % 8 < 4 ? 1.0 : 0.0);
+        expect_winding_of_a_sum(surface, {unit(random), unit(random), z});
+      }
+    }
+  }
+}
+
+/// Random triangles that share edges in all ways: flat, on a lattice, and in general position.
+TEST(OpenBoundary, HasAnIntegerWindingNumberTogetherWithItsSolids) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> unit(-0.2, 1.2);
+  const auto vertex = [&](int kind) {
+    const Vector3d p(unit(random), unit(random), kind == 1 ? 0.3 : unit(random));
+    return kind == 0 ? Vector3d(0.5 * (2.0 * p).array().round()) : p;
+  };
+  for (int round = 0; round < 300; ++round) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 12; ++i) mesh.vertices.push_back(vertex(round % 3));
+    for (int i = 0; i < 4 + round % 60; ++i) {
+      const auto a = static_cast<std::uint32_t>(random() % 12);
+      mesh.triangles.push_back({a, (a + 1 + static_cast<std::uint32_t>(random() % 5)) % 12,
+                                (a + 6 + static_cast<std::uint32_t>(random() % 6)) % 12});
+    }
+    const SolidSurface surface(mesh, round % 2 == 0 ? SurfaceKind::kAuto : SurfaceKind::kSolid, 0.01);
+    const OpenBoundary boundary = open_boundary(surface.mesh(), surface.components(), surface.component_of_triangle());
+    for (int i = 0; i < 50; ++i) {
+      const Vector3d p(unit(random), unit(random), unit(random));
+      const double together =
+          surface.solid_triangles().winding_number(p, kInfinity) + boundary.caps.winding_number(p, kInfinity);
+      EXPECT_NEAR(together, std::round(together), 1e-9) << round;
+      expect_winding_of_a_sum(surface, p);
+    }
+  }
+}
+
+/// Patches that share their corners only: one connected set of open edges all over the ball, whose caps overlap.
+TEST(OpenBoundary, DoesNotSumOverManyOrLargeCaps) {
+  const SolidSurface open(cup(24, 0.5, 1.0, true), SurfaceKind::kSolid, 0.01);
+  EXPECT_TRUE(open_boundary(open.mesh(), open.components(), open.component_of_triangle()).caps_are_small);
+  TriangleMesh every_second = test::ball_mesh(0.5, 20);
+  std::size_t number = 0;
+  std::erase_if(every_second.triangles, [&](const auto&) { return ++number % 2 == 0; });
+  const SolidSurface many(every_second, SurfaceKind::kSolid, 0.01);
+  EXPECT_FALSE(open_boundary(many.mesh(), many.components(), many.component_of_triangle()).caps_are_small);
+  // a pipe twenty times as wide as it is long: few caps, but with more area than half of its own
+  TriangleMesh ring = cup(24, 0.5, 0.05, false);
+  const SolidSurface large(ring, SurfaceKind::kSolid, 0.01);
+  EXPECT_FALSE(open_boundary(large.mesh(), large.components(), large.component_of_triangle()).caps_are_small);
 }
 
 TEST(DistanceProbe, GivesTheSameOnAWalkAsAlone) {

@@ -60,7 +60,7 @@ TEST(PointTree, DividesAllPointsIntoRunsAndLeaves) {
     }
     EXPECT_EQ(std::count(in_runs.begin(), in_runs.end(), 1), static_cast<std::ptrdiff_t>(count));
     std::vector<int> in_leaves(count);
-    const auto below = [](const PointTree::Box& box) { return box.high.x() < 0.5; };
+    const auto below = [](const PointTree::Bounds& box) { return box.high.x() < 0.5; };
     tree.leaves(below, [&](const PointTree::Run& run) {
       for (std::uint32_t entry = run.begin; entry < run.end; ++entry) ++in_leaves[tree.index(entry)];
     });

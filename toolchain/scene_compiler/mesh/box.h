@@ -27,6 +27,13 @@ struct Box {
     low = low.cwiseMin(other.low);
     high = high.cwiseMax(other.high);
   }
+  bool contains(const Eigen::Vector3d& p) const noexcept {
+    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  }
+  /// Returns the square of the distance from p; 0 inside.
+  double squared_distance(const Eigen::Vector3d& p) const noexcept {
+    return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
+  }
   double diagonal() const noexcept { return (high - low).norm(); }
   double longest() const noexcept { return (high - low).maxCoeff(); }  ///< edge
 

@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "toolchain/scene_compiler/mesh/components.h"
 #include "toolchain/scene_compiler/mesh/mesh_edges.h"
 
@@ -12,14 +14,20 @@ using Eigen::Vector3d;
 
 namespace {
 
+// Chosen; of the solids' triangles and area. Balls of patches whose seams do not match have 0.25 and more of the first,
+// balls without a third of their triangles 17 and more of the second.
+constexpr double kMostCaps = 0.125;
+constexpr double kMostCapArea = 0.5;
+
+double area_of(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return 0.5 * (b - a).cross(c - a).norm(); }
+
 /// An edge with its balance: how many more triangles run from a to b than back.
 struct OpenEdge {
   std::uint32_t a, b;
   std::int32_t balance;
 };
 
-/// Returns the caps of an open boundary.
-TriangleTree caps_of(const TriangleMesh& mesh, const std::vector<OpenEdge>& open) {
+std::vector<TriangleTree::Triangle> caps_of(const TriangleMesh& mesh, const std::vector<OpenEdge>& open) {
   TriangleMesh edges{mesh.vertices, {}};
   for (const OpenEdge& edge : open) edges.triangles.push_back({edge.a, edge.b, edge.b});
   const Components sets = connected_components(edges);
@@ -40,7 +48,14 @@ TriangleTree caps_of(const TriangleMesh& mesh, const std::vector<OpenEdge>& open
       caps.push_back({from, to, middle[set] / count[set], static_cast<std::uint32_t>(caps.size())});
     }
   }
-  return TriangleTree(std::move(caps));
+  return caps;
+}
+
+bool are_small(const std::vector<TriangleTree::Triangle>& caps, std::size_t solid_triangles, double solid_area) {
+  double area = 0.0;
+  for (const TriangleTree::Triangle& cap : caps) area += area_of(cap.a, cap.b, cap.c);
+  return static_cast<double>(caps.size()) <= kMostCaps * static_cast<double>(solid_triangles) &&
+         area <= kMostCapArea * solid_area;
 }
 
 }  // namespace
@@ -65,7 +80,17 @@ OpenBoundary open_boundary(const TriangleMesh& mesh, const std::vector<SolidSurf
     boundary.length += std::abs(balance) * (b - a).norm();
   }
   boundary.edges = TriangleTree(std::move(triangles));
-  boundary.caps = caps_of(mesh, open);
+  std::vector<TriangleTree::Triangle> caps = caps_of(mesh, open);
+  std::size_t solid_triangles = 0;
+  double solid_area = 0.0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (components[component_of[i]].shell) continue;
+    const auto& t = mesh.triangles[i];
+    ++solid_triangles;
+    solid_area += area_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  }
+  boundary.caps_are_small = are_small(caps, solid_triangles, solid_area);
+  boundary.caps = TriangleTree(std::move(caps));
   return boundary;
 }
 

@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Openings of TriangleTree::winding_number. The comments give the largest errors against exact sums, measured at 20000
-// points each near teapot, bunny and a drilled block.
+// Openings of TriangleTree::winding_number. The comments give the largest errors of a sum over a mesh against exact
+// sums, measured at 20000 points each near teapot, bunny and a drilled block. A sum over caps alone has smaller ones.
 constexpr double kOpening = 2.0;       // error 0.055
 constexpr double kFinerOpening = 8.0;  // error 0.001
 constexpr double kDipoleError = 0.08;  // the error at kOpening, with a margin of 1.5
@@ -109,7 +109,7 @@ struct SolidSurface::Impl {
   TriangleTree solids;
   TriangleTree shells;
   OpenBoundary boundary;
-  Box box;  ///< around the mesh
+  Box box;  ///< around solids and caps
 
   enum class Kinds : std::uint8_t { kAll, kSolids, kShells };
   TriangleTree tree_of(Kinds kinds) const;
@@ -191,17 +191,18 @@ void SolidSurface::Impl::classify(SurfaceKind kind) {
 }
 
 /// Returns the winding number of solids and caps around p, by the triangles that a path from outside crosses. Empty if
-/// rounding might decide it. The path runs to the nearest side of the box around the mesh, so that it crosses few. It
-/// is oblique, because edges of engineered parts lie along the axes.
+/// rounding might decide it, and if the caps are many or large. The path runs to the nearest side of the box, so that
+/// it crosses few triangles. It is oblique, because edges of engineered parts lie along the axes.
 std::optional<int> SolidSurface::Impl::crossings(const Vector3d& p) const {
-  constexpr double kBeyond = 1e-3;               // of the box
-  constexpr double kAside[] = {0.0137, 0.0219};  // chosen, of the path along the axis: without a simple ratio
-  if (!p.allFinite()) return {};
+  constexpr double kBeyond = 1e-3;  // of the longest edge of the box
+  // Chosen: two parts of the path sideways, as shares of its length along the axis. Their ratios are not simple.
+  constexpr double kAside[] = {0.0137, 0.0219};
+  if (!boundary.caps_are_small || !p.allFinite()) return {};
+  if (!box.contains(p)) return 0;
   int low_axis = 0;
   int high_axis = 0;
   const double to_low = (p - box.low).minCoeff(&low_axis);
   const double to_high = (box.high - p).minCoeff(&high_axis);
-  if (to_low < 0.0 || to_high < 0.0) return 0;
   const int axis = to_low < to_high ? low_axis : high_axis;
   const double length = std::min(to_low, to_high) + kBeyond * box.longest();
   Vector3d outside = p;
@@ -230,8 +231,9 @@ SolidSurface::SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness
   impl_->thickness = thickness;
   impl_->dilation = dilation;
   impl_->classify(kind);
-  impl_->box = Box::around(impl_->mesh.vertices);
   impl_->boundary = open_boundary(impl_->mesh, impl_->components, impl_->component_of);
+  impl_->box = impl_->solids.box();
+  impl_->box.add(impl_->boundary.caps.box());
   impl_->shells = impl_->tree_of(Impl::Kinds::kShells);
 }
 

@@ -22,10 +22,6 @@ constexpr std::uint32_t kMostUneven = 16;
 constexpr std::size_t kStack = 288;
 constexpr double kNotReached = std::numeric_limits<double>::infinity();
 
-double squared_distance_to_box(const Vector3d& p, const Vector3d& low, const Vector3d& high) noexcept {
-  return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
-}
-
 /// Half of the area of a box; 0 for an empty one.
 double half_area(const Box& box) noexcept {
   const Vector3d e = (box.high - box.low).cwiseMax(0.0);
@@ -121,7 +117,7 @@ std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, std::v
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   Box box;
   for (std::uint32_t i = begin; i < end; ++i) box.add(box_of(triangles_[i]));
-  nodes_.push_back({box.low, box.high, begin, end - begin, index + 1});
+  nodes_.push_back({box, begin, end - begin, index + 1});
   if (end - begin <= kLeafTriangles) return index;
   const std::uint32_t middle = split(begin, end, centroids);
   build(begin, middle, centroids);
@@ -233,8 +229,8 @@ void TriangleTree::set_dipoles() {
         weighted += areas[child] * dipoles_[child].center;
       }
     }
-    dipole.center = areas[n] > 0.0 ? Vector3d(weighted / areas[n]) : Vector3d(0.5 * (node.low + node.high));
-    dipole.radius = (node.high - dipole.center).cwiseMax(dipole.center - node.low).norm();
+    dipole.center = areas[n] > 0.0 ? Vector3d(weighted / areas[n]) : Vector3d(0.5 * (node.box.low + node.box.high));
+    dipole.radius = (node.box.high - dipole.center).cwiseMax(dipole.center - node.box.low).norm();
   }
 }
 
@@ -259,7 +255,7 @@ bool TriangleTree::nearest_of(const Vector3d& p, double bound_squared, const Cou
   std::size_t depth = 0;
   double best = bound_squared;
   bool found = false;
-  stack[depth++] = {0, squared_distance_to_box(p, nodes_[0].low, nodes_[0].high)};
+  stack[depth++] = {0, nodes_[0].box.squared_distance(p)};
   while (depth > 0) {
     const Open open = stack[--depth];
     if (open.squared_distance >= best) continue;
@@ -279,8 +275,8 @@ bool TriangleTree::nearest_of(const Vector3d& p, double bound_squared, const Cou
     }
     Open near{open.node + 1, 0.0};
     Open far{node.right, 0.0};
-    near.squared_distance = squared_distance_to_box(p, nodes_[near.node].low, nodes_[near.node].high);
-    far.squared_distance = squared_distance_to_box(p, nodes_[far.node].low, nodes_[far.node].high);
+    near.squared_distance = nodes_[near.node].box.squared_distance(p);
+    far.squared_distance = nodes_[far.node].box.squared_distance(p);
     if (far.squared_distance < near.squared_distance) std::swap(near, far);
     if (far.squared_distance < best) stack[depth++] = far;
     if (near.squared_distance < best) stack[depth++] = near;
@@ -299,7 +295,7 @@ bool TriangleTree::first_hit(const Vector3d& origin, const Vector3d& direction, 
   while (depth > 0) {
     const std::uint32_t index = stack[--depth];
     const Node& node = nodes_[index];
-    if (!ray_meets_box(origin, inverse, node.low, node.high, t_min, t_max)) continue;
+    if (!ray_meets_box(origin, inverse, node.box.low, node.box.high, t_min, t_max)) continue;
     if (node.count == 0) {
       stack[depth++] = node.right;
       stack[depth++] = index + 1;
@@ -328,7 +324,7 @@ std::optional<int> TriangleTree::winding_change(const Vector3d& from, const Vect
   int change = 0;
   for (std::size_t n = 0; n < nodes_.size();) {
     const Node& node = nodes_[n];
-    if (!ray_meets_box(from, inverse, node.low - wider, node.high + wider, -kWider, 1.0 + kWider)) {
+    if (!ray_meets_box(from, inverse, node.box.low - wider, node.box.high + wider, -kWider, 1.0 + kWider)) {
       n = node.after;
       continue;
     }

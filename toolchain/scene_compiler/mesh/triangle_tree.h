@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
 namespace godobject::scene_compiler {
@@ -38,6 +39,9 @@ class TriangleTree {
 
   bool empty() const noexcept { return triangles_.empty(); }
 
+  /// The smallest box around all triangles.
+  Box box() const noexcept { return nodes_.empty() ? Box{} : nodes_[0].box; }
+
   /// Finds the nearest point of all triangles with a squared distance below `bound_squared`. False if there is none.
   bool nearest(const Eigen::Vector3d& p, double bound_squared, Nearest& nearest) const noexcept;
 
@@ -50,7 +54,7 @@ class TriangleTree {
   void within(const Eigen::Vector3d& p, double radius, const Visit& visit) const {
     for (std::size_t n = 0; n < nodes_.size();) {
       const Node& node = nodes_[n];
-      if ((node.low - p).cwiseMax(p - node.high).cwiseMax(0.0).squaredNorm() > radius * radius) {
+      if (node.box.squared_distance(p) > radius * radius) {
         n = node.after;
         continue;
       }
@@ -74,7 +78,7 @@ class TriangleTree {
 
  private:
   struct Node {
-    Eigen::Vector3d low, high;
+    Box box;
     std::uint32_t right;  ///< second child; the first is the next node. Leaf: first triangle
     std::uint32_t count;  ///< triangles of a leaf; 0 for an inner node
     std::uint32_t after;  ///< the node after the subtree

@@ -33,7 +33,7 @@ void PointTree::build(const Range& range, std::vector<Range>* later) {
     low = low.cwiseMin(entries_[i].point);
     high = high.cwiseMax(entries_[i].point);
   }
-  boxes_[range.node] = {low, high, (0.5 * (high - low)).norm()};
+  boxes_[range.node] = {{low, high}, (0.5 * (high - low)).norm()};
   if (range.leaf()) return;
   int axis = 0;
   (high - low).maxCoeff(&axis);
@@ -47,7 +47,7 @@ void PointTree::build(const Range& range, std::vector<Range>* later) {
 }
 
 bool PointTree::any_in_boxes(const Eigen::Vector3d& p, const Range& range, double bound) const {
-  const Box& box = boxes_[range.node];
+  const Bounds& box = boxes_[range.node];
   if (box.squared_distance(p) > bound) return false;
   if (range.leaf()) {
     for (std::uint32_t i = range.begin; i < range.end; ++i) {

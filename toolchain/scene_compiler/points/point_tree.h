@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "toolchain/scene_compiler/mesh/box.h"
+
 namespace godobject::scene_compiler {
 
 /// Balanced kd-tree over points: all points within a radius, or the nearest accepted one. Const calls may run on many
@@ -35,14 +37,8 @@ class PointTree {
   }
 
   /// A box around some of the points.
-  struct Box {
-    Eigen::Vector3d low, high;
-    double half_diagonal;
-
-    /// The square of the distance from p; 0 inside.
-    double squared_distance(const Eigen::Vector3d& p) const {
-      return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
-    }
+  struct Bounds : Box {
+    double half_diagonal;  ///< [m]
   };
 
   /// Calls visit(index, squared distance) for every point at most `radius` from p, except points in boxes with
@@ -140,7 +136,7 @@ class PointTree {
   template <class Skip, class Visit>
   void descend_boxes(const Eigen::Vector3d& p, const Range& range, double bound, const Skip& skip,
                      const Visit& visit) const {
-    const Box& box = boxes_[range.node];
+    const Bounds& box = boxes_[range.node];
     if (box.squared_distance(p) > bound || skip(box)) return;
     if (range.leaf()) {
       for (std::uint32_t i = range.begin; i < range.end; ++i) {
@@ -160,7 +156,7 @@ class PointTree {
 
   template <class Skip, class Visit>
   void descend_to_leaves(const Range& range, const Skip& skip, const Visit& visit) const {
-    const Box& box = boxes_[range.node];
+    const Bounds& box = boxes_[range.node];
     if (skip(box)) return;
     if (range.leaf()) {
       visit(Run{range.begin, range.end});
@@ -172,7 +168,7 @@ class PointTree {
 
   std::vector<Entry> entries_;
   std::vector<Cut> cuts_;
-  std::vector<Box> boxes_;  ///< of the points in each range
+  std::vector<Bounds> boxes_;  ///< of the points in each range
 };
 
 }  // namespace godobject::scene_compiler

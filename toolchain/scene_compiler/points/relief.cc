@@ -110,7 +110,7 @@ std::vector<SurfaceSample> Relief::fine_places(const OuterSurface& outer, const 
   return fine;
 }
 
-bool Relief::may_fall(std::size_t i, const PointTree::Box& box, double depth, double radius) const {
+bool Relief::may_fall(std::size_t i, const PointTree::Bounds& box, double depth, double radius) const {
   const Vector3d half = 0.5 * (box.high - box.low);
   const Vector3d center = box.low + half - places_[i].point;
   const double center_depth = center.dot(inward_[i]);
@@ -142,7 +142,7 @@ bool Relief::falls(std::size_t i, double radius, const Fall& fall) const {
   const SurfaceSample& place = places_[i];
   const auto falls_in = [&](const PointTree& tree, double within) {
     bool found = false;
-    const auto skip = [&](const PointTree::Box& box) { return found || !may_fall(i, box, fall.depth, within); };
+    const auto skip = [&](const PointTree::Bounds& box) { return found || !may_fall(i, box, fall.depth, within); };
     // a search finds a steep wall on its way down: surface far below the plane is not looked up
     tree.within(place.point, std::hypot(within, fall.seen), skip, [&](std::uint32_t j, double squared_distance) {
       const double depth = depth_below(i, places_[j].point);
@@ -186,7 +186,7 @@ Relief::Vicinity::Bounds Relief::Vicinity::bounds_of(const Run& places) const {
 Relief::Vicinity::Cloud Relief::Vicinity::near(const PointTree& tree, const Bounds& places, double radius) const {
   const double furthest = (std::hypot(radius, fall_.seen) + places.radius) * (1.0 + kSquareRounding);
   const Vector3d across = places.inward.cwiseAbs();
-  const auto skip = [&](const PointTree::Box& box) {
+  const auto skip = [&](const PointTree::Bounds& box) {
     const Vector3d half = 0.5 * (box.high - box.low);
     const Vector3d middle = box.low + half - places.center;
     if ((middle.cwiseAbs() - half).cwiseMax(0.0).squaredNorm() > furthest * furthest) return true;
@@ -220,7 +220,7 @@ void Relief::Vicinity::add(const PointTree& tree, const PointTree::Run& run, con
     cloud.candidates.push_back({tree.point(entry), place});
   }
   const auto end = static_cast<std::uint32_t>(cloud.candidates.size());
-  if (end > begin) cloud.parts.push_back({{box.low, box.high, 0.5 * box.diagonal()}, begin, end});
+  if (end > begin) cloud.parts.push_back({{box, 0.5 * box.diagonal()}, begin, end});
 }
 
 bool Relief::Vicinity::falls(std::size_t place, double radius) {
@@ -254,16 +254,16 @@ bool Relief::Vicinity::shows_fall(std::size_t i, const Candidate& candidate, dou
 double Relief::level_radius(std::size_t i, const Fall& fall, double limit) const {
   const SurfaceSample& place = places_[i];
   const auto radius_in = [&](const PointTree& tree, double most) {
-    double looked_at = most * most + fall.seen * fall.seen;  // squared
-    const auto skip = [&](const PointTree::Box& box) {
-      return box.squared_distance(place.point) >= looked_at || !may_fall(i, box, fall.depth, most);
+    double squared_reach = most * most + fall.seen * fall.seen;
+    const auto skip = [&](const PointTree::Bounds& box) {
+      return box.squared_distance(place.point) >= squared_reach || !may_fall(i, box, fall.depth, most);
     };
-    tree.within(place.point, std::sqrt(looked_at), skip, [&](std::uint32_t j, double squared_distance) {
+    tree.within(place.point, std::sqrt(squared_reach), skip, [&](std::uint32_t j, double squared_distance) {
       const double depth = depth_below(i, places_[j].point);
       if (depth <= fall.depth || squared_distance - depth * depth >= most * most) return;
       if (!same_side(place, places_[j])) return;
       most = std::sqrt(std::max(0.0, squared_distance - depth * depth));
-      looked_at = most * most + fall.seen * fall.seen;
+      squared_reach = most * most + fall.seen * fall.seen;
     });
     return most;
   };

@@ -65,7 +65,7 @@ class Relief {
 
  private:
   /// False if nothing in the box is more than `depth` below the plane and at most `radius` from its normal [m].
-  bool may_fall(std::size_t place, const PointTree::Box& box, double depth, double radius) const;
+  bool may_fall(std::size_t place, const PointTree::Bounds& box, double depth, double radius) const;
 
   void for_each_run(const PointTree& tree, const std::function<void(const Run&)>& work) const;
 
@@ -102,7 +102,7 @@ class Relief::Vicinity {
 
   /// Candidates that lie near each other, in a box.
   struct Part {
-    PointTree::Box box;
+    PointTree::Bounds box;
     std::uint32_t begin, end;  ///< candidates
   };
 
