@@ -39,8 +39,9 @@ class Session {
   }
 
   /// Starts the session from the beginning, with a solver that this build has (missing_part). All references must
-  /// outlive the session. `words`: at least search_words(...) of them, for this session alone. With none the results
-  /// are the same, but `contact` visits the sphere trees from their roots in every cycle.
+  /// outlive the session. `words`: at least search_words(...) of them, for this session alone. With none `contact`
+  /// visits the sphere trees from their roots in every cycle and looks all near points up. A god object at rest then
+  /// has the same pose, but one in motion may be some micrometres elsewhere.
   void start(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>& features,
              const Parameters& parameters, Solver solver, bool friction, std::span<std::uint32_t> words,
              const EdgeContacts& edges = {}) noexcept {

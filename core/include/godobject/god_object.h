@@ -45,8 +45,9 @@ class GodObject {
   /// Returns the memory that `start` needs to run at full speed in `scene` [bytes]. With it `contact` remembers from
   /// cycle to cycle which parts of the bodies are too far apart to touch.
   static std::size_t memory_size(const Scene& scene) noexcept;
-  /// Returns the least memory that `start` accepts [bytes]. With less than memory_size(scene) the results are the same,
-  /// but `contact` visits the sphere trees from their roots in every cycle.
+  /// Returns the least memory that `start` accepts [bytes]. With less than memory_size(scene) `contact` visits the
+  /// sphere trees from their roots in every cycle and looks all near points up: a god object at rest has the same pose,
+  /// but one in motion may be some micrometres elsewhere.
   static std::size_t least_memory_size() noexcept;
   /// Returns the alignment of the memory [bytes]: it must begin at a multiple of this.
   static std::size_t memory_alignment() noexcept;

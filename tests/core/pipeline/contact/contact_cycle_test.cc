@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "tests/support/analytic_worlds.h"
 
@@ -510,6 +513,74 @@ TEST(ContactCycle, LosesNoRowThatMattersOfMorePointsThanRows) {
     ASSERT_NEAR(run.state.H_WS.translation.x(), 1e-4 * i, 1e-4);
   }
   EXPECT_GT(in_contact, 50);
+}
+
+/// A run whose search keeps its memory from cycle to cycle, as in a session: points that slide along a wall have a
+/// bound only.
+struct RememberingRun {
+  explicit RememberingRun(const AnalyticField& field, const SampledBody& body, const Pose& start)
+      : shell(body.pointshell()), scene(field, shell, {}, parameters), words(ContactSearch::memory(shell, {})) {
+    parameters.mass = body.mass;
+    parameters.voxel_size = kVoxel;
+    parameters.margin = kMargin;
+    scene = {field, shell, {}, parameters};
+    memory->search.start(scene, words);
+    state.H_WS = memory->H_WD_last = start;
+    state.started = true;
+  }
+
+  Status step(const Pose& H_WD) {
+    CycleInput input;
+    input.H_WD = H_WD;
+    return contact_cycle<false>(scene, input, *memory, state, report);
+  }
+
+  Parameters parameters;
+  Pointshell shell;
+  ContactScene<AnalyticField, NoBodyField> scene;
+  std::vector<std::uint32_t> words;
+  std::unique_ptr<ContactMemory> memory = std::make_unique<ContactMemory>();
+  ProxyState state;
+  CycleReport report;
+};
+
+/// At rest the god object is the nearest free pose to the device, whatever the search remembers.
+template <class Shape>
+void expect_same_rest(Shape shape, unsigned seed) {
+  const AnalyticField field(shape, kVoxel);
+  const SampledBody body = box_body(15);
+  const Pose start = at({0.0, 0.0, 0.08});
+  ContactRun<> run(field, body, start);
+  RememberingRun remembering(field, body, start);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto vector = [&] { return Vector3(unit(random), unit(random), unit(random)); };
+  int bounded = 0;
+  Pose device = start;
+  for (int hold = 0; hold < 8; ++hold) {
+    const Pose from = device;
+    const Pose to = at(0.01 * vector() + Vector3(0.0, 0.0, 0.012), 0.3 * vector());
+    for (int i = 1; i <= 120; ++i) {
+      const double way = std::min(1.0, i / 60.0);
+      device.translation = from.translation + way * (to.translation - from.translation);
+      device.rotation = from.rotation.slerp(way, to.rotation);
+      ASSERT_EQ(run.step(device), Status::kOk);
+      ASSERT_EQ(remembering.step(device), Status::kOk);
+      ASSERT_GT(smallest_distance(field, remembering.shell, remembering.state.H_WS), 0.0) << hold << " " << i;
+      bounded += remembering.memory->workspace.samples.bounded > 0 ? 1 : 0;
+    }
+    const Pose& H = run.state.H_WS;
+    const Pose& of_remembering = remembering.state.H_WS;
+    ASSERT_LT((H.translation - of_remembering.translation).norm(), 1e-6) << hold;
+    ASSERT_LT(H.rotation.angularDistance(of_remembering.rotation), 1e-4) << hold;
+  }
+  EXPECT_GT(bounded, 100) << "cycles with points that have a bound only";
+}
+
+TEST(ContactCycle, RestsWhereItDoesWithoutTheMemoryOfItsSearch) {
+  expect_same_rest(HalfSpace{}, 1);
+  expect_same_rest(Groove{}, 2);
+  expect_same_rest(Groove{.angle = 0.1 * M_PI}, 3);
 }
 
 /// If each point were damped alone, neighbours on one flat would turn a slow rotation into large opposite forces.
