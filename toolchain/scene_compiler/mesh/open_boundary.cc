@@ -3,10 +3,9 @@
 #include <cstdlib>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "toolchain/scene_compiler/mesh/components.h"
 #include "toolchain/scene_compiler/mesh/mesh_edges.h"
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
 namespace godobject::scene_compiler {
 
@@ -14,12 +13,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Chosen; of the solids' triangles and area. Balls of patches whose seams do not match have 0.25 and more of the first,
-// balls without a third of their triangles 17 and more of the second.
+// Chosen; of the number and of the area of the solids' triangles. A mesh with a few holes is far below both.
 constexpr double kMostCaps = 0.125;
 constexpr double kMostCapArea = 0.5;
-
-double area_of(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return 0.5 * (b - a).cross(c - a).norm(); }
 
 /// An edge with its balance: how many more triangles run from a to b than back.
 struct OpenEdge {
@@ -28,6 +24,7 @@ struct OpenEdge {
 };
 
 std::vector<TriangleTree::Triangle> caps_of(const TriangleMesh& mesh, const std::vector<OpenEdge>& open) {
+  if (open.empty()) return {};
   TriangleMesh edges{mesh.vertices, {}};
   for (const OpenEdge& edge : open) edges.triangles.push_back({edge.a, edge.b, edge.b});
   const Components sets = connected_components(edges);
@@ -53,7 +50,7 @@ std::vector<TriangleTree::Triangle> caps_of(const TriangleMesh& mesh, const std:
 
 bool are_small(const std::vector<TriangleTree::Triangle>& caps, std::size_t solid_triangles, double solid_area) {
   double area = 0.0;
-  for (const TriangleTree::Triangle& cap : caps) area += area_of(cap.a, cap.b, cap.c);
+  for (const TriangleTree::Triangle& cap : caps) area += triangle_area(cap.a, cap.b, cap.c);
   return static_cast<double>(caps.size()) <= kMostCaps * static_cast<double>(solid_triangles) &&
          area <= kMostCapArea * solid_area;
 }
@@ -87,7 +84,7 @@ OpenBoundary open_boundary(const TriangleMesh& mesh, const std::vector<SolidSurf
     if (components[component_of[i]].shell) continue;
     const auto& t = mesh.triangles[i];
     ++solid_triangles;
-    solid_area += area_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    solid_area += triangle_area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
   }
   boundary.caps_are_small = are_small(caps, solid_triangles, solid_area);
   boundary.caps = TriangleTree(std::move(caps));

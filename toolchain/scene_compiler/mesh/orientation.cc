@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
+
 namespace godobject::scene_compiler {
 namespace {
 
@@ -67,8 +69,7 @@ Patch patch_of(std::uint32_t first, const Neighbours& neighbours, std::vector<bo
 
 double area_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   const auto& t = mesh.triangles[triangle];
-  const Eigen::Vector3d& a = mesh.vertices[t[0]];
-  return 0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm();
+  return triangle_area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "toolchain/scene_compiler/mesh/mesh_normals.h"
 #include "toolchain/scene_compiler/mesh/sharp_features.h"
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -34,8 +35,7 @@ void SurfacePatches::add_triangles() {
   const TriangleMesh& mesh = body_.mesh;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& corners = mesh.triangles[t];
-    const Vector3d& a = mesh.vertices[corners[0]];
-    const double area = 0.5 * (mesh.vertices[corners[1]] - a).cross(mesh.vertices[corners[2]] - a).norm();
+    const double area = triangle_area(mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]);
     if (body_.in_shell[t]) {
       add({Patch::Kind::kShellFront, t}, area);
       add({Patch::Kind::kShellBack, t}, area);

@@ -37,6 +37,10 @@ Vector3d nearest_point_on_triangle(const Vector3d& p, const Vector3d& a, const V
   return a + (vb * scale) * ab + (vc * scale) * ac;
 }
 
+double triangle_area(const Vector3d& a, const Vector3d& b, const Vector3d& c) noexcept {
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
 bool is_higher(const Vector3d& a, const Vector3d& b, const Vector3d& c, double height) noexcept {
   const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
   return (b - a).cross(c - a).norm() > height * longest;

@@ -8,6 +8,9 @@ namespace godobject::scene_compiler {
 Eigen::Vector3d nearest_point_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                           const Eigen::Vector3d& c) noexcept;
 
+/// Returns the area of a triangle [m^2].
+double triangle_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) noexcept;
+
 /// Tells whether the triangle a, b, c is higher than `height` above its longest side [m].
 bool is_higher(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double height) noexcept;
 

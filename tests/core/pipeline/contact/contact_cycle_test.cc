@@ -55,6 +55,14 @@ Pose at(const Vector3& position, const Vector3& turn = Vector3::Zero()) {
   return pose;
 }
 
+Parameters parameters_of(const SampledBody& body) {
+  Parameters q;
+  q.mass = body.mass;
+  q.voxel_size = kVoxel;
+  q.margin = kMargin;
+  return q;
+}
+
 TEST(ContactCycle, FollowsTheDeviceExactlyWhereNothingIsNear) {
   const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = ball_body();
@@ -462,10 +470,7 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
   const Vector3 tip_W(0.304, 0.007, 0.05);
   const FeatureContacts<AnalyticField> features{&box, tip, tip_W, 0.05};
 
-  Parameters q;
-  q.mass = body.mass;
-  q.voxel_size = kVoxel;
-  q.margin = kMargin;
+  const Parameters q = parameters_of(body);
   const Pointshell shell = body.pointshell();
   const ContactScene<AnalyticField, AnalyticField> scene(nothing, shell, features, q);
   const auto memory = std::make_unique<ContactMemory>();
@@ -515,15 +520,13 @@ TEST(ContactCycle, LosesNoRowThatMattersOfMorePointsThanRows) {
   EXPECT_GT(in_contact, 50);
 }
 
-/// A run whose search keeps its memory from cycle to cycle, as in a session: points that slide along a wall have a
-/// bound only.
+/// A run whose search keeps its memory from cycle to cycle, as in a session. Most near points then have a bound only.
 struct RememberingRun {
-  explicit RememberingRun(const AnalyticField& field, const SampledBody& body, const Pose& start)
-      : shell(body.pointshell()), scene(field, shell, {}, parameters), words(ContactSearch::memory(shell, {})) {
-    parameters.mass = body.mass;
-    parameters.voxel_size = kVoxel;
-    parameters.margin = kMargin;
-    scene = {field, shell, {}, parameters};
+  RememberingRun(const AnalyticField& field, const SampledBody& body, const Pose& start)
+      : parameters(parameters_of(body)),
+        shell(body.pointshell()),
+        scene(field, shell, {}, parameters),
+        words(ContactSearch::memory(shell, {})) {
     memory->search.start(scene, words);
     state.H_WS = memory->H_WD_last = start;
     state.started = true;
