@@ -42,5 +42,29 @@ TEST(Session, KeepsToTheBudgetOfWorkInTheFirstCycle) {
   }
 }
 
+/// A first cycle that is refused leaves the god object where it was placed. Started inside, the body is pushed, and the
+/// damping of a velocity near the largest number is infinite.
+TEST(Session, StaysWhereItWasPlacedIfTheFirstCycleIsRefused) {
+  const SceneImage image = ball_and([](const Vector3& p) { return ball_distance(p, 0.021); }, Vector3::Constant(0.021));
+  SceneView scene;
+  ASSERT_EQ(SceneView::open(image.bytes(), scene), Status::kOk);
+  const auto session = std::make_unique<Session<Voxelmap, NoBodyField>>();
+  std::vector<std::uint32_t> words(session->search_words(scene.pointshell, {}));
+  Parameters q = Parameters::make(scene);
+  q.damping = 1e6;
+  session->start(scene.voxelmap, scene.pointshell, {}, q, Solver::kCorrected, false, words);
+  Pose placed;
+  placed.translation = Vector3(0.3, -0.2, 0.1);
+  session->place(placed);
+  CycleInput input;
+  input.H_WD.translation = Vector3(0.0, 0.0, 0.04);
+  input.velocity_W.translation = Vector3(0.0, 0.0, -1e307);
+  CycleReport report;
+  ASSERT_EQ(session->update(input, report), Status::kNotFinite);
+  EXPECT_TRUE(session->state().H_WS == placed);
+  EXPECT_FALSE(session->state().started);
+  EXPECT_FALSE(session->state().inside);
+}
+
 }  // namespace
 }  // namespace godobject::test::session_test

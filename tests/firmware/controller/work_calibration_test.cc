@@ -111,6 +111,33 @@ TEST_F(WorkCalibration, FindsABudgetForATime) {
   }
 }
 
+/// A clock on which the cycles of the first trial take `first` nanoseconds, and those of later ones a nanosecond.
+class SlowAtFirst final : public hal::Clock {
+ public:
+  explicit SlowAtFirst(std::int64_t first) : first_(first) {}
+  std::int64_t now_ns() noexcept override {
+    constexpr std::int64_t kReadings = 2 * 401 * 5;  // of a trial, at most
+    return now_ += readings_++ < kReadings ? first_ : 1;
+  }
+  void sleep_until(std::int64_t) noexcept override {}
+
+ private:
+  std::int64_t first_;
+  std::int64_t readings_ = 0;
+  std::int64_t now_ = 0;
+};
+
+/// If the time is in proportion to the units, the second trial takes less than the time, but not by much.
+TEST_F(WorkCalibration, TriesABudgetNextThatTakesSomewhatLess) {
+  const std::vector<Pose> path = calibration_path(scene_, start_);
+  for (const int times : {2, 3, 10}) {
+    SlowAtFirst clock(times * 100'000);
+    const WorkBudget found = find_budget(scene_, true, path, memory_.span(), 100e-6, clock);
+    EXPECT_LT(found.units, 400000u / static_cast<unsigned>(times)) << times;
+    EXPECT_GT(found.units, 400000u / static_cast<unsigned>(times) / 2) << times;
+  }
+}
+
 TEST_F(WorkCalibration, TellsABudgetThatHoldsTheGodObject) {
   const std::vector<Pose> path = calibration_path(scene_, start_);
   EXPECT_LT(distance_left(scene_, true, path, memory_.span(), GodObject::kNoBudget), 1e-5);

@@ -218,5 +218,32 @@ TEST(Projection, MeetsCoulombsLawAtAnyContact) {
   EXPECT_GT(slipped, 200);
 }
 
+/// At the end of a long lever the rounds of a slipping contact do not converge. Yet the contact that presses keeps its
+/// gap: friction neither lifts it nor lets it in.
+TEST(Projection, MeetsTheRowOfASlippingContactAtTheEndOfALongLever) {
+  Random random(6);
+  int pressed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    FrictionProblem problem(random);
+    problem.contacts.wrench_S.torque *= random.between(10.0, 100.0);
+    const Eigen::Matrix<double, 3, 6> rows = problem.rows();
+    const Vector6 wanted = six_vector(problem.wanted);
+    if (rows.row(0).dot(wanted) >= problem.required()) continue;
+    const Projection out = project(problem.wanted, problem.contacts, kFrictionSafety, kFrictionGain, problem.mass,
+                                   &problem.friction, ProjectionState{});
+    if (!out.next.slipping) continue;
+    const Vector6 got = six_vector(out.next.wanted);
+    const Vector6 wrench = problem.mass_matrix() * (got - wanted);
+    const Vector3 force = test::least_squares(rows.transpose(), wrench);
+    const double left = rows.row(0).dot(got) - problem.required();
+    const double rounding = 1e-13 * (rows.row(0).norm() * got.norm() + problem.required());
+    ASSERT_GE(left, -rounding) << i;
+    if (!(force[0] > 1e-9)) continue;
+    ++pressed;
+    ASSERT_LE(left, rounding) << i;
+  }
+  EXPECT_GT(pressed, 500);
+}
+
 }  // namespace
 }  // namespace godobject::test::projection_friction_test

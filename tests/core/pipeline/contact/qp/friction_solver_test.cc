@@ -79,6 +79,22 @@ TEST(GuessCone, StartsFromTheLastForce) {
   }
 }
 
+/// A row whose contact has closed is opened again; the closed contact does not count.
+TEST(GuessCone, OpensARowThatHasClosed) {
+  Random random(2);
+  Problem p;
+  for (int i = 0; i < 2; ++i) p.push(random.direction(), random.in_cube(kBody), 0.0);
+  ContactSet set = p.set();
+  set.open(0);
+  set.open(1);
+  set.close(1);
+  set.close(0);
+  ASSERT_EQ(set.contact_count(), 0);
+  detail::guess_cone(0, {}, set);
+  EXPECT_EQ(set.contact_count(), 1);
+  EXPECT_EQ(p.rows->required_gain[0], -FLT_MAX);
+}
+
 /// A slip that points out of the new surface is of no use: the guess is the normal alone.
 TEST(GuessCone, ForgetsADirectionThatTheSurfaceHasTurnedAwayFrom) {
   Problem p;
