@@ -74,23 +74,12 @@ Status CompiledSession::update(const GodObject::Input& input, CycleReport& repor
   }
   Pose H_WM = input.H_WM;
   if (const Status status = make_unit(H_WM); status != Status::kOk) return refuse(status, report);
-  CycleInput cycle_input;
-  cycle_input.H_WD = H_WM * H_MB_;  // D: B as the device holds it
-  cycle_input.velocity_W = input.velocity_W;
-  const Parameters& parameters = core_.parameters();
-  if (parameters.workspace.limited) {
-    const Vector3 device = cycle_input.H_WD.translation;
-    cycle_input.H_WD.translation = parameters.workspace.nearest(device);
-    const Vector3 back_W = cycle_input.H_WD.translation - device;
-    if (!back_W.isZero(0.0)) {
-      if (!core_.state().started) {
-        const Status status = follow(H_WM, report);
-        report.outside = status == Status::kOk;
-        return status;
-      }
-      cycle_input.outside = true;
-      cycle_input.push = workspace_push(back_W, input.velocity_W.translation, parameters);
-    }
+  // D: B as the device holds it
+  const CycleInput cycle_input = input_within(H_WM * H_MB_, input.velocity_W, core_.parameters());
+  if (cycle_input.outside && !core_.state().started) {
+    const Status status = follow(H_WM, report);
+    report.outside = status == Status::kOk;
+    return status;
   }
   const Status status = core_.update(cycle_input, report, times);
   return status == Status::kOk ? status : refuse(status, report);

@@ -102,9 +102,7 @@ struct AnalyticRun {
   }
 
   Status step(const Pose& H_WD, const Motion& velocity_W = {}) {
-    CycleInput input;
-    input.H_WD = H_WD;
-    input.velocity_W = velocity_W;
+    const CycleInput input = input_within(H_WD, velocity_W, parameters);
     return cycle(field, body.pointshell(), parameters, input, state, report);
   }
 

@@ -26,9 +26,8 @@ Pose moved_by(const Pose& H_WS, const Vector6& motion, double gyration) {
 
 /// Not farther from the device than if the god object had stayed, or by the way out of lost margins.
 void Watch::check_distance(const WatchedCycle& cycle) {
-  const Pose H_WD = clamped(cycle.H_WD);
-  const double now = stretch(H_WS_, H_WD).norm();
-  const Vector6 to_device = stretch(H_WS_before_, H_WD);
+  const double now = stretch(H_WS_, cycle.H_WD).norm();
+  const Vector6 to_device = stretch(H_WS_before_, cycle.H_WD);
   const double slack = 4.0 * q_.margin + session_.rounding;
   double most = to_device.norm();
   if (now > most + slack) {
@@ -156,7 +155,7 @@ void Watch::check_pushes(const WatchedCycle& cycle, bool between_planes) {
 /// One cycle's motion is the one of the linear problem at its start, which non-negative least squares solve.
 void Watch::check_optimum(const WatchedCycle& cycle) {
   if (cycle.report.outcome != Outcome::kContact || travelled_ > 0.25 * q_.voxel_size) return;
-  const Vector6 to_device = stretch(H_WS_before_, clamped(cycle.H_WD));
+  const Vector6 to_device = stretch(H_WS_before_, cycle.H_WD);
   std::vector<HalfPlane> rows;
   for (const Touch& touch : touches_at(H_WS_before_, 0.5 * q_.voxel_size)) {
     HalfPlane row = row_of(touch, gyration_, q_.voxel_size);

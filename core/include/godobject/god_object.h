@@ -89,8 +89,10 @@ class GodObject {
   /// not seen: their contact holds the god object on the wrong side.
   ///
   /// In a scene with a workspace box the god object follows the device only within the box, and the device feels the
-  /// box's faces as stiff as the coupling. Until the device has been inside for the first time, nothing is rendered, as
-  /// by `follow`. `report.outside` tells both cases.
+  /// box's faces as stiff as the coupling. With `contact` the faces hold the god object as contacts without friction
+  /// do, so that the force of faces and contacts together is that of one spring; the other solvers follow the pose in
+  /// the box that is nearest to the device. Until the device has been inside for the first time, nothing is rendered,
+  /// as by `follow`. `report.outside` tells both cases.
   ///
   /// `times`, if not null, receives how long the steps took.
   ///

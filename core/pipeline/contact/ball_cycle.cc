@@ -108,9 +108,10 @@ Vector3 damped(const Held& held, const Vector3& velocity_W, double damping_over_
 /// The centre of the ball in one cycle.
 class Center {
  public:
+  /// `beyond`: from the goal of all functions to the device's own position; zero within the box [m].
   Center(const Voxelmap& field, const WorkspaceBox& box, const ContactLengths& lengths, const Vector3& at,
-         WorkMeter& work) noexcept
-      : field_(field), box_(box), lengths_(lengths), at_(at), work_(work) {
+         const Vector3& beyond, WorkMeter& work) noexcept
+      : field_(field), box_(box), lengths_(lengths), at_(at), beyond_(beyond), work_(work) {
     search_radius_ = std::min(lengths_.longest_search_radius, field.assured_clearance());
   }
 
@@ -144,17 +145,18 @@ class Center {
 
  private:
   void push_contact() noexcept;
-  bool leads_far_away(const Vector3& free) const noexcept;
-  void constrain(const Vector3& free) noexcept;
+  bool leads_far_away(const Vector3& aim) const noexcept;
+  void constrain(const Vector3& aim) noexcept;
   bool certify(const Vector3& end, double least_gap) noexcept;
   bool push_obstacle(const Vector3& end) noexcept;
   double overshoot(const Vector3& motion) noexcept;
-  bool look_again(const Vector3& end, const Vector3& free, MotionShare& share) noexcept;
+  bool look_again(const Vector3& end, const Vector3& aim, MotionShare& share) noexcept;
 
   const Voxelmap& field_;
   const WorkspaceBox& box_;
   const ContactLengths& lengths_;
   Vector3 at_;
+  const Vector3 beyond_;
   double search_radius_;
   FieldSample here_, there_;
   Vector3 motion_ = Vector3::Zero();
@@ -174,23 +176,23 @@ void Center::push_contact() noexcept {
   spaces_.push(here_.gradient / steepness, lengths_.gap_law().required_gain(lost));
 }
 
-/// Tells whether the motion ends farther from `free` than rest, by much more than any gap has to grow (kMostLever).
-bool Center::leads_far_away(const Vector3& free) const noexcept {
+/// Tells whether the motion ends farther from `aim` than rest, by much more than any gap has to grow (kMostLever).
+bool Center::leads_far_away(const Vector3& aim) const noexcept {
   double most = lengths_.metric.tolerance;
   for (int i = 0; i < spaces_.count; ++i) most = std::max(most, spaces_.gain[static_cast<std::size_t>(i)]);
-  return (motion_ - free).norm() > free.norm() + kMostLever * most;
+  return (motion_ - aim).norm() > aim.norm() + kMostLever * most;
 }
 
-/// Computes the motion nearest to `free` that all half spaces and the workspace allow. Half spaces that contradict each
+/// Computes the motion nearest to `aim` that all half spaces and the workspace allow. Half spaces that contradict each
 /// other drop their required gap increase.
-void Center::constrain(const Vector3& free) noexcept {
+void Center::constrain(const Vector3& aim) noexcept {
   const auto solve = [&]() noexcept {
-    if (project(spaces_, free, lengths_.metric.tolerance, motion_, held) && !leads_far_away(free)) return;
+    if (project(spaces_, aim, lengths_.metric.tolerance, motion_, held) && !leads_far_away(aim)) return;
     infeasible = true;
     for (double& gain : std::span(spaces_.gain).first(static_cast<std::size_t>(spaces_.count))) {
       gain = std::min(gain, 0.0);
     }
-    project(spaces_, free, lengths_.metric.tolerance, motion_, held);
+    project(spaces_, aim, lengths_.metric.tolerance, motion_, held);
   };
   solve();
   if (!box_.limited || box_.contains(at_ + motion_)) return;
@@ -256,21 +258,21 @@ double Center::overshoot(const Vector3& motion) noexcept {
 
 /// Solves again with the half space of the obstacle. False: there is none, it changes nothing, or no second look is
 /// left.
-bool Center::look_again(const Vector3& end, const Vector3& free, MotionShare& share) noexcept {
+bool Center::look_again(const Vector3& end, const Vector3& aim, MotionShare& share) noexcept {
   if (share.looks_left() == 0 || !push_obstacle(end)) return false;
   const Vector3 tried = motion_;
-  constrain(free);
+  constrain(aim);
   if (!((motion_ - tried).norm() > lengths_.metric.tolerance)) return false;
   share.look_again(1.0);
   return true;
 }
 
 bool Center::step(const Vector3& goal) noexcept {
-  const Vector3 free = goal - at_;
+  const Vector3 aim = goal + beyond_ - at_;
   push_contact();
   held.count = 0;
-  motion_ = free;
-  if (spaces_.count > 0) constrain(free);
+  motion_ = goal - at_;
+  if (spaces_.count > 0) constrain(aim);
   outdated = false;
   MotionShare share(1.0);
   while (share.next() && !work_.is_spent()) {
@@ -283,19 +285,19 @@ bool Center::step(const Vector3& goal) noexcept {
           outdated = false;
           obstacle_.share = 1.0;
           obstacle_.sample = there_;
-          if (!look_again(end, free, share)) share.stop_at(1.0 / (1.0 + over));
+          if (!look_again(end, aim, share)) share.stop_at(1.0 / (1.0 + over));
           continue;
         }
       }
       at_ = end;
       cut = share.is_cut();
       is_provisional = (share.looks_left() < kMostSecondLooks || share.is_stopped()) &&
-                       (motion_ - free).squaredNorm() < free.squaredNorm() && motion.norm() > lengths_.margin;
+                       (motion_ - aim).squaredNorm() < aim.squaredNorm() && motion.norm() > lengths_.margin;
       return true;
     }
     if (obstacle_.exhausted) {
       share.shrink_to(obstacle_.share);
-    } else if (!look_again(end, free, share)) {
+    } else if (!look_again(end, aim, share)) {
       share.shrink_at_obstacle();
     }
   }
@@ -340,7 +342,7 @@ Status ball_cycle(const Voxelmap& field, const Parameters& q, const ContactLengt
   const Vector3& goal = input.H_WD.translation;
   work.start(q.work_budget);
   work.add(Work::kCycle);
-  Center center(field, q.workspace, lengths, state.H_WS.translation, work);
+  Center center(field, q.workspace, lengths, state.H_WS.translation, input.beyond_W, work);
   path.clear();
   const BallResult result = advance(center, goal, input.H_WD.rotation, state.inside, path);
   detail::end(times, &StepTimes::step1_ns);

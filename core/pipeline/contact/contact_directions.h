@@ -15,8 +15,6 @@ namespace godobject::detail {
 
 /// The bit of a contact's id that marks a feature point.
 inline constexpr std::uint32_t kFeature = 1u << 31;
-/// The id of the rows of the workspace's faces. It is no point: format::kMaxPoints is less.
-inline constexpr std::uint32_t kFaceOfWorkspace = kFeature - 1u;
 
 /// A contact between a point P and a surface whose distance grows along `gradient_S` as P moves.
 struct ContactPoint {

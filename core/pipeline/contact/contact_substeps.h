@@ -84,7 +84,7 @@ class ContactSubsteps {
     work_.add(Work::kSubstep);
     KeptSearch& kept = memory_.kept;
     // `learn` has compared the poses already; lists of another pose would let the body cross
-    goes_on_ = is_first_ && kept.goes_on && is_same(kept.H_WS, H0_);
+    goes_on_ = is_first_ && kept.goes_on && kept.H_WS == H0_;
     had_all_points_ = goes_on_ && kept.has_all;
     if (goes_on_) {
       search_radius_ = kept.radius;
@@ -256,10 +256,6 @@ class ContactSubsteps {
   }
 
  private:
-  static bool is_same(const Pose& a, const Pose& b) noexcept {
-    return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
-  }
-
   /// Learns how much of a motion the budget of work allows, unless the next cycle goes on with the search of this one
   /// or has its points from the beginning.
   void learn() noexcept {
@@ -267,7 +263,7 @@ class ContactSubsteps {
     const ContactSearch& search = memory_.search;
     // while points are missing it is not known whether the god object is inside
     const bool is_inside = result_.inside && kept.has_all;
-    const bool stays = result_.out_of_work && !is_inside && is_same(kept.H_WS, result_.H_WS);
+    const bool stays = result_.out_of_work && !is_inside && kept.H_WS == result_.H_WS;
     const bool may_go_on = kept.has_all ? has_surroundings_ || !had_all_points_
                                         : (kept.has_samples ? search.features : search.samples).may_go_on();
     kept.goes_on = stays && may_go_on;
@@ -357,6 +353,13 @@ class ContactSubsteps {
   /// Takes the forces of the last sub-step, or of the last cycle, for those of this one.
   void return_to_last_step() noexcept { step_ = is_first_ ? memory_.last_step : memory_.workspace.last_step; }
 
+  /// Returns the motion to the device's own pose, which may lie outside of the workspace: the stretch that contacts and
+  /// faces of the workspace balance. `motion`: from `H` to the pose that the cycle follows.
+  Motion on_to_device(const Pose& H, Motion motion) const noexcept {
+    if (input_.outside) motion.translation += H.rotation.conjugate()._transformVector(input_.beyond_W);
+    return motion;
+  }
+
   bool is_clear_to_device() const noexcept { return memory_.search.is_free(free_displacement_, scene_.free_clearance); }
 
   void add_to_whole(const Motion& motion) noexcept {
@@ -387,10 +390,10 @@ class ContactSubsteps {
     return H_out;
   }
 
-  /// Computes the motion nearest to the unconstrained one for the coupling's metric, or a stiffer one.
+  /// Computes the motion nearest to that to the device for the coupling's metric, or a stiffer one.
   void solve_in_best_metric() noexcept {
     metric_ = lengths_.metric;
-    aim_ = free_;
+    aim_ = on_to_device(H0_, free_);
     solve();
     if (arc_energy(step_) > kMostOvershoot * squared(step_.motion)) stiffen();
   }
@@ -424,7 +427,7 @@ class ContactSubsteps {
     const double stiffer = squared_gyration + arc_energy(step_) / (turn * turn);
     if (!(turn > 0.0) || !std::isfinite(stiffer)) return;
     metric_.gyration = std::sqrt(stiffer);
-    aim_.rotation = squared_gyration / stiffer * free_.rotation;
+    aim_.rotation *= squared_gyration / stiffer;
     const bool infeasible = step_.infeasible;
     solve();
     step_.infeasible |= infeasible;
@@ -489,40 +492,21 @@ class ContactSubsteps {
     const WorkspaceBox& box = scene_.parameters->workspace;
     const bool has_friction = kFriction && !memory_.share.is_least();
     const ContactFriction* const friction = has_friction ? &friction_ : nullptr;
-    if (!box.limited) {
+    bool contradictory = false;
+    if (!input_.outside) {
       least_constraint(rows_, aim_, metric_, friction, last_motion_, work_, step_);
-      step_.unconverged |= kFriction && !has_friction;
-      return;
+      contradictory = step_.infeasible;
     }
-    if (!kFriction) {
-      least_constraint(rows_, aim_, metric_, nullptr, last_motion_, work_, step_);
-      if (box.contains(H0_ * step_.motion.translation)) return;
-      const bool contradictory = step_.infeasible;
-      constrain_within(box);
-      step_.infeasible |= contradictory;
-      return;
+    if (input_.outside || (box.limited && !box.contains(H0_ * step_.motion.translation))) {
+      constrain_within(box, friction);
     }
-    bool infeasible = false;
-    const bool met = push_within(box, metric_.tolerance, [&](const Vector3& push_W) noexcept {
-      Motion pushed = aim_;
-      pushed.translation -= H0_.rotation.conjugate()._transformVector(push_W);
-      least_constraint(rows_, pushed, metric_, friction, last_motion_, work_, step_);
-      infeasible |= step_.infeasible;
-      step_.follows &= push_W.isZero(0.0);
-      return H0_ * step_.motion.translation;
-    });
-    // the push reduces the target, so that friction may hold the body farther from the device than rest would
-    if (!met || distance_gain() > 0.0) {
-      constrain_within(box);
-      step_.unconverged = true;
-    }
-    step_.unconverged |= !has_friction;
-    step_.infeasible |= infeasible;
+    step_.infeasible |= contradictory;
+    step_.unconverged |= kFriction && !has_friction;
   }
 
-  /// Computes the motion nearest to the unconstrained one without friction, with the faces of the box as rows. Their
-  /// forces are left out of the step: they are no contacts. With too many rows the last ones give way to the faces.
-  void constrain_within(const WorkspaceBox& box) noexcept {
+  /// Computes the motion nearest to `aim_` with the faces of the box as rows. Their forces are left out of the step:
+  /// they are no contacts. With too many rows the last ones give way to the faces.
+  void constrain_within(const WorkspaceBox& box, const ContactFriction* friction) noexcept {
     constexpr std::uint32_t kFaces = 6;
     const std::uint32_t contacts = std::min(rows_.count, ContactRows::kCapacity - kFaces);
     result_.dropped += rows_.count - contacts;
@@ -530,9 +514,13 @@ class ContactSubsteps {
     push_faces(box, H0_, [&](const Vector3& normal_S, double gain) noexcept {
       rows_.push(kFaceOfWorkspace, normal_S, Vector3::Zero(), gain);
     });
-    least_constraint(rows_, aim_, metric_, nullptr, last_motion_, work_, step_);
+    least_constraint(rows_, aim_, metric_, friction, last_motion_, work_, step_);
     rows_.count = contacts;
     drop_forces(kFaceOfWorkspace, step_);
+    if (step_.force_count > 0) return;
+    step_.follows = true;  // to the place in the box that is nearest to the device
+    step_.motion = aim_;
+    step_.motion.translation -= H0_.rotation.conjugate()._transformVector(input_.beyond_W);
   }
 
   void follow_device() noexcept {
@@ -726,8 +714,8 @@ class ContactSubsteps {
     if (!(rise > (1.0 + kMostOvershoot - share) * share * squared(step_.motion))) return false;
     // measured again: surfaces that turn need not raise the energy
     const EndGaps gaps = end_gaps(scene_, H0_, H1_, step_, share);
-    const double fall =
-        lengths_.metric.squared(free_) - lengths_.metric.squared(unconstrained_motion(H1_, input_.H_WD)) - gaps.energy;
+    const Motion left = on_to_device(H1_, unconstrained_motion(H1_, input_.H_WD));
+    const double fall = lengths_.metric.squared(on_to_device(H0_, free_)) - lengths_.metric.squared(left) - gaps.energy;
     const double overshoot = 1.0 - fall / (share * squared(step_.motion));
     if (!(overshoot > kMostOvershoot)) return false;
     is_outdated_ = false;

@@ -15,4 +15,16 @@ DeviceForce workspace_push(const Vector3& back_W, const Vector3& velocity_W, con
   return push;
 }
 
+CycleInput input_within(const Pose& H_WD, const Motion& velocity_W, const Parameters& parameters) noexcept {
+  CycleInput input;
+  input.H_WD = H_WD;
+  input.velocity_W = velocity_W;
+  if (!parameters.workspace.limited) return input;
+  input.H_WD.translation = parameters.workspace.nearest(H_WD.translation);
+  input.beyond_W = H_WD.translation - input.H_WD.translation;
+  input.outside = !input.beyond_W.isZero(0.0);
+  if (input.outside) input.push = workspace_push(-input.beyond_W, velocity_W.translation, parameters);
+  return input;
+}
+
 }  // namespace godobject

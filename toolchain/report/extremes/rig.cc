@@ -151,19 +151,6 @@ class SolidOracle final : public watch::Oracle {
   Solid solid_;
 };
 
-/// Moves a device pose into the box, as CompiledSession does. The cycle's push is that of the faces.
-CycleInput input_of(const Pose& H_WD, const Motion& velocity_W, const Parameters& q) {
-  CycleInput input;
-  input.H_WD = H_WD;
-  input.velocity_W = velocity_W;
-  if (!q.workspace.limited) return input;
-  input.H_WD.translation = q.workspace.nearest(H_WD.translation);
-  const Vector3 back_W = input.H_WD.translation - H_WD.translation;
-  input.outside = !back_W.isZero(0.0);
-  if (input.outside) input.push = workspace_push(back_W, velocity_W.translation, q);
-  return input;
-}
-
 class AnalyticRig final : public Rig {
  public:
   explicit AnalyticRig(const Setup& setup)
@@ -179,7 +166,7 @@ class AnalyticRig final : public Rig {
   }
 
   Status update(const Pose& H_WD, const Motion& velocity_W, CycleReport& report) override {
-    const CycleInput input = input_of(H_WD, velocity_W, q_);
+    const CycleInput input = input_within(H_WD, velocity_W, q_);
     if (input.outside && !session_->state().started) {
       report = CycleReport{};
       report.H_WS = H_WD;

@@ -10,6 +10,9 @@
 
 namespace godobject {
 
+/// The id of the rows of the workspace's faces, which have no friction. It is no point: format::kMaxPoints is less.
+inline constexpr std::uint32_t kFaceOfWorkspace = (1u << 31) - 1u;
+
 /// The law by which a gap that differs from the margin grows or may shrink.
 struct GapLaw {
   double margin;        ///< the gap to maintain [m]

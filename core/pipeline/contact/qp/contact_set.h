@@ -29,7 +29,8 @@ struct Contact {
   Vector3 point;           ///< in S [m]
   Vector3 grip;            ///< the point at which friction acts, in S (ContactPatches) [m]
   double required_gain{};  ///< [m]
-  double ratio{};          ///< mu
+  bool has_friction{};     ///< not of a face of the workspace
+  double ratio{};          ///< mu; 0 without friction
   double shift = 0.0;      ///< |slip| by which the cone is shifted [m]
   double speed = 0.0;      ///< Newton: |slip| in the last step [m]
   int reversals = 0;       ///< Newton: consecutive steps in which the slip had the force's direction
@@ -100,7 +101,7 @@ class ContactSet {
     if (slip.speed > metric_.still) slip.direction = tangential / slip.speed;
     return slip;
   }
-  /// Returns mu_s if the point did not slip in the last motion, otherwise mu_k.
+  /// Returns mu_s if the point did not slip in the last motion, otherwise mu_k; 0 without friction.
   double ratio_of(const Contact& contact) const noexcept;
 
   /// Returns the half space n . v >= required gain of a row.

@@ -6,6 +6,7 @@
 namespace godobject::detail {
 
 double ContactSet::ratio_of(const Contact& contact) const noexcept {
+  if (!contact.has_friction) return 0.0;
   return slip_of(contact, last_).speed > metric_.still ? friction_->kinetic_ratio : friction_->static_ratio;
 }
 
@@ -20,10 +21,11 @@ ActiveSet::Inequality ContactSet::cone_half_space(int contact_index, const Vecto
 
 void ContactSet::set_viscous_metric(const std::array<double, kMaxContacts>& load) noexcept {
   double sum = 0.0;
-  for (int k = 0; k < contact_count_; ++k) sum += load[static_cast<std::size_t>(k)];
+  for (int k = 0; k < contact_count_; ++k) sum += contact(k).has_friction ? load[static_cast<std::size_t>(k)] : 0.0;
   Matrix6 H = Matrix6::Identity();
   for (int k = 0; k < contact_count_ && sum > 0.0; ++k) {
     const Contact& c = contact(k);
+    if (!c.has_friction) continue;
     Matrix3 cross;  // v = x + r x P = x - P x r at the grip P
     cross << 0.0, -c.grip.z(), c.grip.y(), c.grip.z(), 0.0, -c.grip.x(), -c.grip.y(), c.grip.x(), 0.0;
     Eigen::Matrix<double, 3, 6> velocity;
@@ -43,7 +45,8 @@ int ContactSet::open(std::uint32_t row) noexcept {
        .normal = normal,
        .point = point,
        .grip = friction_->patches.grip(normal, point, friction_->face_thickness),
-       .required_gain = static_cast<double>(rows_.required_gain[row])};
+       .required_gain = static_cast<double>(rows_.required_gain[row]),
+       .has_friction = rows_.id[row] != kFaceOfWorkspace};
   c.ratio = ratio_of(c);
   rows_.required_gain[row] = -FLT_MAX;
   return contact_count_++;

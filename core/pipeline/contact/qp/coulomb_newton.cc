@@ -129,9 +129,10 @@ Newton newton_step(bool trusted, Motion& m, ContactSet& set) noexcept {
     const double changed = std::fabs(multiplier[j] - active[j].multiplier);
     if (viscous && changed > metric.tolerance) result = Newton::kContinue;
     active.at(j).multiplier = multiplier[j];
-    const double speed = set.slip_of(set.contact_of(j), m).speed;
-    if (!set.contact_of(j).slips) {
-      if (speed > metric.still && !settled) result = Newton::kContinue;
+    const Contact& c = set.contact_of(j);
+    const double speed = set.slip_of(c, m).speed;
+    if (!c.slips) {
+      if (c.has_friction && speed > metric.still && !settled) result = Newton::kContinue;
     } else if (follow_slip(m, j, set) && !(settled && speed <= metric.tolerance)) {
       result = settled ? Newton::kSettled : Newton::kContinue;
     }

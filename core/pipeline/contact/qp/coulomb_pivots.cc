@@ -101,7 +101,7 @@ void begin_to_slip(const Motion& m, ContactSet& set) noexcept {
   for (int k = 0; k < set.contact_count(); ++k) {
     Contact& c = set.contact(k);
     const Slip slip = set.slip_of(c, m);
-    if (c.slips || c.is_held || !(slip.speed > set.metric().still)) {
+    if (!c.has_friction || c.slips || c.is_held || !(slip.speed > set.metric().still)) {
       c.is_held = !c.slips && load_on(active, k).count == 3;
       continue;
     }

@@ -67,7 +67,7 @@ class ShiftRelaxation {
     const int count = set.contact_count();
     for (int k = 0; k < count; ++k) {
       const Contact& c = set.contact(k);
-      ways[index(k)] = {c.row, set.slip_of(c, m).speed - c.shift};
+      ways[index(k)] = {c.row, c.has_friction ? set.slip_of(c, m).speed - c.shift : 0.0};
     }
     share_ = share_of(round, std::span(ways).first(index(count)));
     for (int k = 0; k < count; ++k) {

@@ -5,10 +5,11 @@ namespace {
 
 constexpr double kCrawl = 0.02;
 
-/// Tells whether no contact slips in the motion `m`.
+/// Tells whether no contact with friction slips in the motion `m`.
 bool is_slip_free(const ContactSet& set, const Motion& m) noexcept {
   for (int k = 0; k < set.contact_count(); ++k) {
-    if (!(set.slip_of(set.contact(k), m).speed <= set.metric().still)) return false;  // nor is NaN
+    const Contact& c = set.contact(k);
+    if (c.has_friction && !(set.slip_of(c, m).speed <= set.metric().still)) return false;  // nor is NaN
   }
   return true;
 }

@@ -54,19 +54,23 @@ struct SmoothProjection {
   }
 };
 
+/// Returns the unit of the normal coordinate in the cone of a contact: mu. Without friction the cone is a ray, which
+/// any unit fits.
+double unit_of(const Contact& contact) noexcept { return contact.has_friction ? contact.ratio : 1.0; }
+
 /// A contact in the coordinates of its cone.
 struct ConeContact {
-  /// Of y without |slip|, and the change of z per unit of x.
+  /// Of y without |slip|, and the change of z per unit of x. Without friction only the first column is not zero.
   Eigen::Matrix<double, 6, 3> gradient = Eigen::Matrix<double, 6, 3>::Zero();
   Vector3 first = Vector3::Zero();  ///< unit, across the normal
   Vector3 second = Vector3::Zero();
-  double gain{};                ///< required gain / mu [m]
+  double gain{};                ///< required gain / unit_of [m]
   double scale{};               ///< c
   Vector3 x = Vector3::Zero();  ///< force over the coupling's stiffness [m]
   Vector3 y = Vector3::Zero();  ///< [m]
 
   double slip() const noexcept { return y.tail<2>().norm(); }
-  double gap(double ratio) const noexcept { return ratio * (y[0] - slip()); }
+  double gap(double unit) const noexcept { return unit * (y[0] - slip()); }
 };
 
 /// The contacts of a set and the rows that its motion violates, without an active set.
@@ -85,8 +89,8 @@ class SmoothedProblem {
         pull += set_.active()[j].multiplier * set_.active()[j].tag.slip;
       }
       set_frame(k);
-      const double ratio = set_.contact(k).ratio;
-      at(k).x = ratio * Vector3(load, -at(k).first.dot(pull), -at(k).second.dot(pull));
+      if (!set_.contact(k).has_friction) pull.setZero();
+      at(k).x = unit_of(set_.contact(k)) * Vector3(load, -at(k).first.dot(pull), -at(k).second.dot(pull));
     }
   }
 
@@ -124,8 +128,9 @@ class SmoothedProblem {
       const Vector3 across = set_.contact(k).normal.cross(along);
       const double share = std::min(1.0, length / load);
       const double tolerance = set_.metric().tolerance;
-      const bool sticks = length < load - kOfForce * tolerance && !(cone.slip() > tolerance);
-      const double third = load / set_.contact(k).ratio / 3.0;
+      const bool sticks =
+          set_.contact(k).has_friction && length < load - kOfForce * tolerance && !(cone.slip() > tolerance);
+      const double third = load_on(k) / 3.0;
       found.add(force(k, along, sticks ? third * (1.0 + 2.0 * share) : 3.0 * third));
       if (!sticks) continue;
       found.add(force(k, -0.5 * along + kSineOfThird * across, third * (1.0 - share)));
@@ -187,7 +192,7 @@ class SmoothedProblem {
   bool obeys_law(int k) const noexcept {
     const double tolerance = set_.metric().tolerance;
     const ConeContact& cone = at(k);
-    const double gap = cone.gap(set_.contact(k).ratio);
+    const double gap = cone.gap(unit_of(set_.contact(k)));
     const double load = load_on(k);
     if (!(gap >= -tolerance) || !(load >= -0.1 * tolerance)) return false;
     const double length = cone.x.tail<2>().norm();
@@ -203,10 +208,10 @@ class SmoothedProblem {
 
   /// Tells whether the contact carries load: not one whose force is rounding.
   bool carries(int k) const noexcept {
-    return at(k).x[0] > 0.0 && at(k).gap(set_.contact(k).ratio) <= set_.metric().tolerance;
+    return at(k).x[0] > 0.0 && at(k).gap(unit_of(set_.contact(k))) <= set_.metric().tolerance;
   }
 
-  double load_on(int k) const noexcept { return at(k).x[0] / set_.contact(k).ratio; }
+  double load_on(int k) const noexcept { return at(k).x[0] / unit_of(set_.contact(k)); }
 
   void set_frame(int k) noexcept {
     at(k).first = set_.contact(k).normal.unitOrthogonal();
@@ -216,10 +221,12 @@ class SmoothedProblem {
   void set_gradient(int k) noexcept {
     const Contact& c = set_.contact(k);
     ConeContact& cone = at(k);
-    cone.gradient.col(0) = set_.space().gradient(c.normal, c.point) / c.ratio;
-    cone.gradient.col(1) = set_.space().gradient(cone.first, c.grip);
-    cone.gradient.col(2) = set_.space().gradient(cone.second, c.grip);
-    cone.gain = c.required_gain / c.ratio;
+    cone.gradient.col(0) = set_.space().gradient(c.normal, c.point) / unit_of(c);
+    if (c.has_friction) {
+      cone.gradient.col(1) = set_.space().gradient(cone.first, c.grip);
+      cone.gradient.col(2) = set_.space().gradient(cone.second, c.grip);
+    }
+    cone.gain = c.required_gain / unit_of(c);
     cone.scale = scale_ / cone.gradient.squaredNorm();
   }
 

@@ -81,9 +81,9 @@ Seen expect_one_story(unsigned seed, const WorkspaceBox& workspace) {
     if (cycle % 150 == 149) device = pose_at(random.in_cube(0.07), random.in_cube(1.0));
     device = device * set_matrix(velocity);
     if (device.translation.norm() > 0.08) device.translation *= 0.9;
-    device.translation = workspace.nearest(device.translation);
     const Pose before = run.state.H_WS;
     EXPECT_EQ(run.step(device), Status::kOk);
+    const Pose followed{device.rotation, workspace.nearest(device.translation)};
     const auto path = run.memory().path.poses();
     EXPECT_FALSE(path.empty());
     if (path.empty()) return seen;
@@ -103,10 +103,10 @@ Seen expect_one_story(unsigned seed, const WorkspaceBox& workspace) {
       return (last.motion.translation - motion.translation).norm() < 1e-9 &&
              (last.motion.rotation - motion.rotation).norm() < 1e-8;
     };
-    const bool ends_free = path.size() > 1 && last.follows && from == device;
-    const Motion wanted = get_motion(before.inverse() * device);
+    const bool ends_free = path.size() > 1 && last.follows && from == followed;
+    const Motion wanted = get_motion(before.inverse() * followed);
     EXPECT_TRUE(stored(sum) || (ends_free && stored(wanted))) << cycle;
-    EXPECT_TRUE(run.memory().H_WD_last == device);
+    EXPECT_TRUE(run.memory().H_WD_last == followed);
     // the report is that of the last sub-step
     EXPECT_EQ(run.report.contacts, last.contact_count);
     EXPECT_EQ(last.force_count > 0, last.contact_count > 0);
@@ -114,10 +114,11 @@ Seen expect_one_story(unsigned seed, const WorkspaceBox& workspace) {
     EXPECT_GE(run.report.substeps, 1u);
     EXPECT_LE(run.report.substeps, kMaxSubsteps);
     EXPECT_LE(run.report.substeps, std::max<std::size_t>(1, path.size()));
-    const bool at_device = run.state.H_WS == device;
+    const bool at_device = run.state.H_WS == followed;
     if (at_device && last.force_count == 0) {
       EXPECT_EQ(run.report.outcome, Outcome::kFree) << cycle;
-      EXPECT_EQ(run.report.force.spring_W.force, Vector3::Zero());
+      const Vector3 push = run.parameters.stiffness * (followed.translation - device.translation);
+      EXPECT_LT((run.report.force.spring_W.force - push).norm(), 1e-9) << "of the faces";
       ++seen.free;
     }
     if (run.report.outcome == Outcome::kFree) {
@@ -430,7 +431,7 @@ void expect_rows_to_give_way_to_the_faces() {
     ASSERT_EQ(run.step(pose_at({1e-5 * i, 0.0, height})), Status::kOk);
     EXPECT_EQ(run.report.dropped, 6u) << i;
     EXPECT_EQ(run.report.outcome, Outcome::kInfeasible) << i;
-    EXPECT_EQ(run.report.unconverged, kFriction) << "with friction the faces are met without it";
+    EXPECT_FALSE(run.report.unconverged);
     ASSERT_LE(run.state.H_WS.translation.z(), height);
     EXPECT_NEAR(run.state.H_WS.translation.z(), height, 1e-7) << "no gap below the margin shrinks";
     EXPECT_NEAR(run.state.H_WS.translation.x(), 1e-5 * i, 1e-7) << "the faces do not hold it back";

@@ -93,145 +93,36 @@ TEST(WorkspacePush, IsASpringAndADamperAlongEachAxis) {
   EXPECT_LT((push.total_W.force - Vector3(0.0, 40.0, 0.0)).norm(), 1e-12);
 }
 
-/// A body that yields along each axis by a share of the push. Returns the number of solves.
-int push_with(const WorkspaceBox& box, double tolerance, const Vector3& target, const Matrix3& yield, Vector3& push,
-              bool& converged) {
-  int calls = 0;
-  push.setZero();
-  converged = push_within(box, tolerance, [&](const Vector3& wanted) noexcept {
-    ++calls;
-    // a push that would turn into a pull ends at zero first
-    EXPECT_TRUE((push.cwiseProduct(wanted).array() >= 0.0).all()) << push.transpose() << " then " << wanted.transpose();
-    push = wanted;
-    return Vector3(target - yield * wanted);
-  });
-  return calls;
-}
-
-TEST(PushWithin, FindsThePushOfEachFaceInTwoStepsWhereAxesAreFree) {
+/// The pose is moved to the nearest one in the box, and both ways add up to the device. The push is that of the way
+/// back.
+TEST(InputWithin, MovesTheDeviceIntoTheBox) {
   Random random(2);
-  int solves[4] = {0, 0, 0, 0};
-  for (int i = 0; i < 5000; ++i) {
-    const WorkspaceBox box = box_of(Vector3(-0.1, -0.2, -0.3), Vector3(0.1, 0.2, 0.3));
-    const Vector3 target = random.in_cube(0.6);
-    const Vector3 yields(random.between(0.03, 1.0), i % 2 == 0 ? 1.0 : random.between(0.03, 1.0), 1.0);
-    Vector3 push;
-    bool converged = false;
-    const int calls = push_with(box, 1e-9, target, yields.asDiagonal(), push, converged);
-    ASSERT_TRUE(converged) << i;
-    ASSERT_LE(calls, 3) << i;
-    ++solves[calls];
-    const Vector3 end = target - yields.cwiseProduct(push);
-    ASSERT_LT((end - box.nearest(end)).norm(), 2e-9) << i;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double beyond = target[axis] - box.nearest(target)[axis];
-      ASSERT_NEAR(yields[axis] * push[axis], beyond, 2e-9) << i;  // no push without need, and onto the face, not beyond
-    }
+  Parameters q;
+  q.workspace = box_of(Vector3(-0.1, -0.2, -0.3), Vector3(0.1, 0.2, 0.3));
+  int outside = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Pose device = pose_at(random.in_cube(0.4), random.in_cube(1.0));
+    const Motion velocity = random.motion(0.1, 0.2);
+    const CycleInput input = input_within(device, velocity, q);
+    EXPECT_EQ(input.H_WD.translation, q.workspace.nearest(device.translation));
+    EXPECT_EQ(input.H_WD.rotation.coeffs(), device.rotation.coeffs());
+    EXPECT_EQ(input.velocity_W.translation, velocity.translation);
+    EXPECT_EQ(input.velocity_W.rotation, velocity.rotation);
+    EXPECT_LT((input.H_WD.translation + input.beyond_W - device.translation).norm(), 1e-15);
+    EXPECT_EQ(input.outside, !q.workspace.contains(device.translation));
+    const DeviceForce push = workspace_push(input.H_WD.translation - device.translation, velocity.translation, q);
+    EXPECT_EQ(input.push.spring_W.force, push.spring_W.force);
+    EXPECT_EQ(input.push.total_W.force, push.total_W.force);
+    outside += input.outside ? 1 : 0;
   }
-  EXPECT_GT(solves[1], 50);  // the target was inside
-  EXPECT_GT(solves[2], 50);
-  EXPECT_GT(solves[3], 50);
-}
-
-/// Contacts couple the axes: a push along one moves the others. At the solution each face either pushes and is met, or
-/// does not push and is not crossed.
-TEST(PushWithin, FindsPushesThatFacesCanGiveWhereAxesAreCoupled) {
-  Random random(3);
-  int found = 0;
-  constexpr int kCases = 5000;
-  for (int i = 0; i < kCases; ++i) {
-    const WorkspaceBox box = box_of(Vector3::Constant(-0.1), Vector3::Constant(0.1));
-    const Vector3 target = random.in_cube(0.2);
-    // a projection onto a plane of contact, softened: symmetric, with eigenvalues of 0 to 1
-    const Vector3 n = random.direction();
-    const Matrix3 yield = Matrix3::Identity() - random.between(0.0, 0.9) * n * n.transpose();
-    Vector3 push;
-    bool converged = false;
-    const int calls = push_with(box, 1e-6, target, yield, push, converged);
-    ASSERT_LE(calls, 7) << i;
-    const Vector3 end = target - yield * push;
-    const double beyond = (end - box.nearest(end)).cwiseAbs().maxCoeff();
-    if (!converged) {
-      ASSERT_EQ(calls, 7) << i;
-      continue;
-    }
-    ++found;
-    ASSERT_LE(beyond, 1e-6) << i;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (push[axis] > 0.0) {
-        ASSERT_NEAR(end[axis], box.high[axis], 1e-6) << i;
-      }
-      if (push[axis] < 0.0) {
-        ASSERT_NEAR(end[axis], box.low[axis], 1e-6) << i;
-      }
-    }
-  }
-  EXPECT_GT(found, kCases * 7 / 10);
-}
-
-/// Along an axis the end moves by at most the push, so a push that grows by less than what is missing cannot suffice.
-TEST(PushWithin, GrowsAPushByNoLessThanIsMissing) {
-  Random random(5);
-  int steps = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const WorkspaceBox box = box_of(Vector3::Constant(-0.1), Vector3::Constant(0.1));
-    const Vector3 target = random.in_cube(0.2);
-    const Vector3 n = random.direction();
-    const Matrix3 yield = Matrix3::Identity() - random.between(0.0, 0.9) * n * n.transpose();
-    Vector3 last = Vector3::Zero();
-    Vector3 missing = Vector3::Zero();  // to the face of each axis that is pushed, or crossed
-    push_within(box, 1e-6, [&](const Vector3& push) noexcept {
-      const Vector3 end = target - yield * push;
-      for (int axis = 0; axis < 3; ++axis) {
-        const bool let_go = push[axis] == 0.0 && last[axis] != 0.0;  // a face does not pull
-        if (!let_go) {
-          EXPECT_GE(std::fabs(push[axis] - last[axis]), std::fabs(missing[axis]) - 1e-12) << i << ", axis " << axis;
-        }
-        steps += missing[axis] != 0.0 ? 1 : 0;
-        const double nearest = box.nearest(end)[axis];
-        missing[axis] = end[axis] - (push[axis] > 0.0 ? 0.1 : push[axis] < 0.0 ? -0.1 : nearest);
-      }
-      last = push;
-      return end;
-    });
-  }
-  EXPECT_GT(steps, 5000);
-}
-
-/// By hand: the face at x = 0.1 pushes by 0.1. This moves y from 0.095 to 0.105, beyond its face. Each push p, q moves
-/// the other axis outwards by a tenth of it: p - 0.1 q = 0.1 and q - 0.1 p = -0.005, so q = 0.005 / 0.99.
-TEST(PushWithin, FollowsAPushThatMovesAnotherAxisOutOfTheBox) {
-  const WorkspaceBox box = box_of(Vector3::Constant(-0.1), Vector3::Constant(0.1));
-  for (int axis = 0; axis < 3; ++axis) {
-    const int other = (axis + 1) % 3;
-    for (const double side : {-1.0, 1.0}) {
-      Matrix3 yield = Matrix3::Identity();
-      yield(axis, other) = yield(other, axis) = -0.1;
-      Vector3 target = Vector3::Zero();
-      target[axis] = side * 0.2;
-      target[other] = side * 0.095;
-      Vector3 push;
-      bool converged = false;
-      push_with(box, 1e-5, target, yield, push, converged);
-      EXPECT_TRUE(converged);
-      EXPECT_NEAR(push[axis], side * (0.1 + 0.0005 / 0.99), 2e-5);
-      EXPECT_NEAR(push[other], side * 0.005 / 0.99, 2e-5);
-    }
-  }
-}
-
-TEST(PushWithin, GivesUpWhereTheBodyDoesNotYield) {
-  const WorkspaceBox box = box_of(Vector3::Constant(-0.1), Vector3::Constant(0.1));
-  Vector3 push;
-  bool converged = true;
-  EXPECT_EQ(push_with(box, 1e-9, {0.2, 0.0, 0.0}, Matrix3::Zero(), push, converged), 7);
-  EXPECT_FALSE(converged);
-  // within the tolerance nothing is pushed
-  EXPECT_EQ(push_with(box, 1e-3, {0.1009, -0.1009, 0.0}, Matrix3::Zero(), push, converged), 1);
-  EXPECT_TRUE(converged);
-  EXPECT_TRUE(push.isZero(0.0));
-  EXPECT_EQ(push_with(box, 1e-3, {0.0, -0.1011, 0.0}, Matrix3::Zero(), push, converged), 7);
-  EXPECT_FALSE(converged);
+  EXPECT_GT(outside, 100);
+  EXPECT_LT(outside, 495);
+  q.workspace.limited = false;
+  const Pose far = pose_at({1.0, -2.0, 3.0}, {0.1, 0.2, 0.3});
+  const CycleInput input = input_within(far, {}, q);
+  EXPECT_TRUE(input.H_WD == far);
+  EXPECT_FALSE(input.outside);
+  EXPECT_TRUE(input.beyond_W.isZero(0.0));
 }
 
 TEST(PushFaces, AreTheSixHalfSpacesOfTheBox) {

@@ -12,6 +12,7 @@
 #include <set>
 #include <vector>
 
+#include "core/pipeline/contact/qp/contact_forces.h"
 #include "tests/support/random.h"
 #include "tests/support/slow_projection.h"
 
@@ -39,6 +40,16 @@ struct Problem {
   WorkMeter work;
 
   void push(const Vector3& normal, const Vector3& point, double need) { rows->push(rows->count, normal, point, need); }
+  /// Adds a face of the workspace, which pushes at the origin.
+  void push_face(const Vector3& normal, double need) { rows->push(kFaceOfWorkspace, normal, Vector3::Zero(), need); }
+
+  /// Returns the row of a force. Rows of points have their numbers as ids; those of faces have one id.
+  std::uint32_t row_of(const ContactForce& force) const {
+    if (force.id != kFaceOfWorkspace) return force.id;
+    std::uint32_t row = 0;
+    while (rows->id[row] != force.id || (rows->normal(row) - force.normal).norm() > 1e-6) ++row;
+    return row;
+  }
 
   ConstrainedStep solve(const ConstrainedStep& warm = {}) {
     ConstrainedStep step = warm;
@@ -483,11 +494,11 @@ CoulombErrors coulomb_errors(const Problem& p, const ConstrainedStep& step, cons
   for (std::uint32_t j = 0; j < step.force_count; ++j) {
     const ContactForce& f = step.forces[j];
     EXPECT_GE(f.multiplier, 0.0);
-    Total& total = totals[f.id];
+    Total& total = totals[p.row_of(f)];
     total.load += f.multiplier;
     total.tangential -= f.multiplier * f.ratio * f.slip;
     total.ratio = f.ratio;
-    all += f.multiplier;
+    if (f.id != kFaceOfWorkspace) all += f.multiplier;
   }
   EXPECT_EQ(step.contact_count, totals.size());
   CoulombErrors worst;
@@ -498,7 +509,10 @@ CoulombErrors coulomb_errors(const Problem& p, const ConstrainedStep& step, cons
     const Vector3 slip = slip_of(id, step.motion);
     const bool slips = slip.norm() > 2.0 * p.metric.still;
     const bool slipped = slip_of(id, last).norm() > p.metric.still;
-    if (slips || slipped) {
+    const bool is_face = p.rows->id[id] == kFaceOfWorkspace;
+    if (is_face) {
+      EXPECT_EQ(total.ratio, 0.0);
+    } else if (slips || slipped) {
       EXPECT_EQ(total.ratio, friction.kinetic_ratio);
     } else if (slip.norm() < 0.5 * p.metric.still) {
       EXPECT_LE(total.ratio, friction.static_ratio);
@@ -513,8 +527,8 @@ CoulombErrors coulomb_errors(const Problem& p, const ConstrainedStep& step, cons
     if (total.load > p.metric.tolerance) {
       worst.gap = std::max(worst.gap, std::fabs(n.dot(v) - static_cast<double>(p.rows->required_gain[id])));
     }
-    const Vector3 force =
-        total.load * n.normalized() + total.tangential - friction.viscous_step * total.load / all * slip;
+    const Vector3 force = total.load * n.normalized() + total.tangential -
+                          (is_face ? 0.0 : friction.viscous_step * total.load / all) * slip;
     SixVector push;
     push << force, p.rows->point(id).cross(force) / p.metric.gyration;
     sum += push;
@@ -851,6 +865,48 @@ TEST(LeastConstraintFriction, ObeysCoulombOnRandomProblems) {
       outcomes.print("random");
       outcomes.expect_within(2.0, viscous ? 0.03 + 0.08 * ratio : 0.002 + 0.03 * ratio * ratio);
     }
+  }
+}
+
+/// Faces of the workspace push without friction, whatever slides along them; the points obey Coulomb's law beside them.
+TEST(LeastConstraintFriction, GivesFacesOfTheWorkspaceNoFriction) {
+  for (const bool viscous : {false, true}) {
+    Random random(37);
+    Outcomes outcomes;
+    int pressed = 0, along = 0;
+    ConstrainedStep unrelated;
+    for (int problem = 0; problem < 2000; ++problem) {
+      // points with room for no motion, so that the faces are met as well
+      Problem p;
+      for (int i = 0; i < 1 + problem % 12; ++i) {
+        p.push(random.direction(), random.in_cube(kBody), random.between(-0.003, 0.0));
+      }
+      p.wanted = random.motion(0.01, 0.1);
+      const Quaternion turn = exp_rotation(random.in_cube(2.0));
+      for (const int axis : {0, 1, 2}) {
+        const Vector3 normal = turn * Vector3(Vector3::Unit(axis));
+        p.push_face(normal, random.between(-0.004, 0.0));
+        p.push_face(-normal, random.between(-0.004, 0.0));
+      }
+      const double ratio = random.between(0.02, 0.6);
+      const ContactFriction friction{ratio, random.between(0.5, 1.0) * ratio, viscous ? random.between(0.0, 2.0) : 0.0};
+      const Motion last = problem % 2 == 0 ? Motion{} : random.motion(0.001, 0.01);
+      const ConstrainedStep step = p.solve(friction, last, problem % 3 == 0 ? unrelated : ConstrainedStep{});
+      outcomes.count(p, step, friction, last);
+      unrelated = step;
+      detail::drop_forces(kFaceOfWorkspace, unrelated);
+      bool on_face = false, on_point = false;
+      for (std::uint32_t j = 0; j < step.force_count; ++j) {
+        (step.forces[j].id == kFaceOfWorkspace ? on_face : on_point) |= step.forces[j].multiplier > 1e-5;
+      }
+      pressed += on_face && on_point ? 1 : 0;
+      along += on_face && step.motion.translation.norm() > 1e-4 ? 1 : 0;
+    }
+    std::printf("pressed between faces and points %d, moving along a face %d; ", pressed, along);
+    outcomes.print("faces");
+    EXPECT_GT(pressed, 500);
+    EXPECT_GT(along, 500);
+    outcomes.expect_within(2.0, viscous ? 0.05 : 0.005);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pipeline/contact/qp/coulomb_newton.h"
+#include "core/pipeline/contact/qp/shifted_cones.h"
 #include "tests/support/random.h"
 
 namespace godobject::test::smoothed_coulomb_test {
@@ -26,10 +27,20 @@ struct PegProblem {
   Motion wanted;
   ContactFriction friction{0.2, 0.2, 0.0};
   Motion last;
+  Motion solution;  ///< of peg_problem
   WorkMeter work;
 
   ContactSet set() { return {*rows, wanted, kPegMetric, &friction, last, work}; }
   void push(const Vector3& normal, const Vector3& point, double gain) { rows->push(rows->count, normal, point, gain); }
+  /// Adds a face of the workspace, which pushes at the origin.
+  void push_face(const Vector3& normal, double gain) { rows->push(kFaceOfWorkspace, normal, Vector3::Zero(), gain); }
+  /// Returns the row of a force. Rows of points have their numbers as ids; those of faces have one id.
+  std::uint32_t row_of(const ContactForce& force) const {
+    if (force.id != kFaceOfWorkspace) return force.id;
+    std::uint32_t row = 0;
+    while (rows->id[row] != force.id || (rows->normal(row) - force.normal).norm() > 1e-6) ++row;
+    return row;
+  }
   std::vector<float> gains() const { return {rows->required_gain, rows->required_gain + rows->count}; }
 };
 
@@ -72,10 +83,11 @@ void expect_law(const PegProblem& p, const ConstrainedStep& step, double balance
   for (std::uint32_t j = 0; j < step.force_count; ++j) {
     const ContactForce& force = step.forces[j];
     EXPECT_GE(force.multiplier, 0.0);
-    forces[force.id].load += force.multiplier;
-    forces[force.id].ratio = force.ratio;
-    forces[force.id].across -= force.multiplier * force.ratio * force.slip;
-    all += force.multiplier;
+    RowForce& on_row = forces[p.row_of(force)];
+    on_row.load += force.multiplier;
+    on_row.ratio = force.ratio;
+    on_row.across -= force.multiplier * force.ratio * force.slip;
+    if (force.id != kFaceOfWorkspace) all += force.multiplier;
   }
   Vector6 sum = in_metric(p.wanted);
   for (std::uint32_t i = 0; i < p.rows->count; ++i) {
@@ -86,6 +98,11 @@ void expect_law(const PegProblem& p, const ConstrainedStep& step, double balance
     EXPECT_LE(lost, kPegMetric.tolerance) << "row " << i;
     if (!(force.load > 0.0)) continue;
     EXPECT_GE(lost, -kPegMetric.tolerance) << "row " << i << " pulls from afar";
+    if (p.rows->id[i] == kFaceOfWorkspace) {
+      EXPECT_EQ(force.ratio, 0.0);
+      sum += push_of(force.load * normal.normalized(), p.rows->point(i));
+      continue;
+    }
     const double most = force.ratio * force.load;
     EXPECT_LE(force.across.norm(), most * (1.0 + 1e-6));
     const Vector3 slip = v - normal.dot(v) * normal;
@@ -161,7 +178,15 @@ PegProblem peg_problem(const PegSeries& series, int trial, Random& random) {
     force_sum -= push_of(p.friction.viscous_step * drags[i].first / all * slip, drags[i].second);
   }
   p.wanted = from_metric(in_metric(m) - force_sum);
+  p.solution = m;
   return p;
+}
+
+/// Lets a face of the workspace carry load in the solution of a problem.
+void press_on_face(double load, Random& random, PegProblem& p) {
+  const Vector3 normal = random.direction();
+  p.push_face(normal, normal.dot(p.solution.translation));
+  p.wanted.translation -= load * normal;
 }
 
 class SolveSmoothed : public ::testing::TestWithParam<PegSeries> {};
@@ -192,6 +217,28 @@ TEST_P(SolveSmoothed, FindsASolutionWhereThereIsOne) {
   }
   std::printf("[ measured ] solved %d of 300; solve_coulomb alone %d\n", solved, by_newton);
   EXPECT_GE(solved, GetParam().solved);
+}
+
+/// A face of the workspace presses on the peg, too. It has no friction, so that the peg slides along it.
+TEST_P(SolveSmoothed, FindsASolutionBesideAFaceWithoutFriction) {
+  Random random(44);
+  int solved = 0, pressed = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    PegProblem p = peg_problem(GetParam(), trial, random);
+    press_on_face(std::pow(10.0, random.between(-4.0, -2.0)), random, p);
+    ContactSet set = p.set();
+    // with and without forces of Newton's method to begin with
+    if (trial % 3 == 0) detail::meet_cones(detail::Shift::kSlip, set);
+    ConstrainedStep step;
+    if (!detail::solve_smoothed(set, step)) continue;
+    ++solved;
+    expect_law(p, step, (p.friction.viscous_step > 0.0 ? 10.0 : 0.1) * kPegMetric.tolerance);
+    for (std::uint32_t j = 0; j < step.force_count; ++j) pressed += step.forces[j].id == kFaceOfWorkspace ? 1 : 0;
+    if (HasFailure()) FAIL() << "problem " << trial;
+  }
+  std::printf("[ measured ] solved %d of 300, pressed on the face %d\n", solved, pressed);
+  EXPECT_GE(solved, GetParam().solved - 20) << "one contact more";
+  EXPECT_GE(pressed, 200);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pegs, SolveSmoothed,
