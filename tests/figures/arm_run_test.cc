@@ -110,9 +110,13 @@ TEST(ArmRun, IsATableOf120Characters) {
 TEST(ArmRun, IsDrawnWithItsModesAndItsJoints) {
   const ArmFigure figure{.title = "Peg", .facts = "", .markers = {{"A", 0.001}}, .log = run_in_order()};
   const std::string text = gnuplot_text(figure, "x.png");
-  // t, force, torque, distance [mm], depth [um], mode, joints [%]
-  EXPECT_NE(text.find("\n0.0000 0 0 nan nan 0 0 0\n"), std::string::npos);
-  EXPECT_NE(text.find("\n0.0010 4 0 0 -20 1 -30 60\n"), std::string::npos);
+  // the first two samples of each curve
+  for (const char* const begin : {"$force << END\n0.0000 0\n0.0010 4\n", "$torque << END\n0.0000 0\n0.0010 0\n",
+                                  "$distance << END\n0.0000 nan\n0.0010 0\n", "$depth << END\n0.0000 nan\n0.0010 -20\n",
+                                  "$mode << END\n0.0000 0\n0.0010 1\n", "$joint1 << END\n0.0000 0\n0.0010 -30\n",
+                                  "$joint2 << END\n0.0000 0\n0.0010 60\n"}) {
+    EXPECT_NE(text.find(begin), std::string::npos) << begin;
+  }
   EXPECT_NE(text.find("\n0.0030 9\n"), std::string::npos);
   EXPECT_NE(text.find("('boot' 0, 'running' 1, 'ended' 2)"), std::string::npos);
   EXPECT_NE(text.find("title 'joint 2'"), std::string::npos);

@@ -86,7 +86,7 @@ TEST_F(Plan, LinksToStudiesIfWanted) {
                                  .runs = {},
                                  .run_verdicts = {}},
                                 folder_);
-  EXPECT_LT(html.find("<h2 id=\"peg\">"), html.find("<h2 id=\"fits\">C &lt; D</h2>"));
+  EXPECT_LT(html.find("<h3 id=\"peg\">"), html.find("<h2 id=\"fits\">C &lt; D</h2>"));
   EXPECT_NE(html.find("href=\"fits/report.html\""), std::string::npos);
   expect_refused(kScene + "[[study]]\nname = 'fits'\ntext = 'words'\n", ExitCode::kBadConfig,
                  "study.title: is missing");
@@ -109,7 +109,7 @@ TEST_F(Plan, IsRefusedNamingTheKey) {
 }
 
 TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
-  for (const char* name : {"paper_1.200.png", "contact_1.200.png", "paper_deepest.png", "sketch.png", "figure.png"})
+  for (const char* name : {"paper_1.200.png", "contact_1.200.png", "paper_deepest.png", "sketch.png"})
     std::ofstream(folder_ / "peg" / name) << "x";
   const ReplayLog log = {replay_row(1.2, 7.5, 0.0001, 5, 9e3, 100), replay_row(1.201, 2.0, 0.003, 5, 20e3, 400)};
   const Figure figure{.title = "",
@@ -117,18 +117,24 @@ TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
                       .voxel_size = 0.002,
                       .markers = {},
                       .series = {{"paper", log}, {"contact", log}}};
-  const std::string html = page({.plan = read_plan(holding(kScene)),
-                                 .figures = {figure},
-                                 .entries = {{"peg", "paper", 0.002, {}, {}}, {"peg", "contact", 0.002, {}, {}}},
-                                 .verdicts = {"MISSED & lost"},
-                                 .arm_figures = {},
-                                 .runs = {},
-                                 .run_verdicts = {}},
-                                folder_);
-  EXPECT_NE(html.find("<h2 id=\"peg\">A &lt; B</h2>"), std::string::npos);
-  EXPECT_NE(html.find("MISSED &amp; lost"), std::string::npos);
+  const std::string html =
+      page({.plan = read_plan(holding(kScene)),
+            .figures = {figure},
+            .entries = {{"peg", "paper", 0.002, {}, {}}, {"peg", "contact", 0.002, {}, {}}},
+            .verdicts = {.contact = {"HOLDS & keeps"}, .compared = {"MISSED & lost"}, .times = {"MISSED late"}},
+            .arm_figures = {},
+            .runs = {},
+            .run_verdicts = {}},
+           folder_);
+  EXPECT_NE(html.find("<h3 id=\"peg\">A &lt; B</h3>"), std::string::npos);
+  EXPECT_NE(html.find("<b>MISSED</b> &amp; lost"), std::string::npos);
+  // Verdicts of contact come first, then the scenes, the comparison, and times.
+  EXPECT_LT(html.find("<b>HOLDS</b> &amp; keeps"), html.find("<h3 id=\"peg\">"));
+  EXPECT_LT(html.find("<h3 id=\"peg\">"), html.find("<b>MISSED</b> &amp; lost"));
+  EXPECT_LT(html.find("<b>MISSED</b> &amp; lost"), html.find("<b>MISSED</b> late"));
   EXPECT_NE(html.find("<p>8 points &amp; more.</p>"), std::string::npos);
-  EXPECT_NE(html.find("<th>behind [mm]</th>"), std::string::npos);
+  EXPECT_NE(html.find("<th class=\"more\">behind [mm]</th>"), std::string::npos);
+  EXPECT_NE(html.find("<th>force [N]</th>"), std::string::npos);
   EXPECT_NE(html.find("peg/paper_1.200.png"), std::string::npos);
   EXPECT_NE(html.find("paper, 1.200 s: depth 0.100 mm, force 7.5 N"), std::string::npos);
   EXPECT_NE(html.find("paper, 1.201 s (largest depth of all solvers): depth 3.000 mm, force 2.0 N"), std::string::npos);
@@ -136,7 +142,18 @@ TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
   EXPECT_LT(html.find("<figcaption>paper, 1.200"), html.find("<figcaption>paper, 1.201"));
   EXPECT_NE(html.find("<figcaption>sketch.png"), std::string::npos);
   EXPECT_NE(html.find("href=\"peg/paper.csv\""), std::string::npos);
-  EXPECT_EQ(html.find("<figcaption>figure"), std::string::npos);
+  EXPECT_EQ(html.find("replay.html"), std::string::npos);
+  std::ofstream(folder_ / "peg" / "replay.html") << "x";
+  const std::string moving = page({.plan = read_plan(holding(kScene)),
+                                   .figures = {figure},
+                                   .entries = {},
+                                   .verdicts = {},
+                                   .arm_figures = {},
+                                   .runs = {},
+                                   .run_verdicts = {}},
+                                  folder_);
+  EXPECT_LT(moving.find("<iframe class=\"moving\" src=\"peg/replay.html\""), moving.find("What holds"));
+  EXPECT_NE(moving.find("<a href=\"peg/replay.html\">Moving picture</a>"), std::string::npos);
 }
 
 TEST_F(Plan, HasAChapterForRunsOnAnArm) {
@@ -166,12 +183,12 @@ TEST_F(Plan, HasAChapterForRunsOnAnArm) {
                                  .runs = {run},
                                  .run_verdicts = {"HOLDS & ends"}},
                                 folder_);
-  EXPECT_LT(html.find("<h2 id=\"peg\">"), html.find("<h1 id=\"closed-loop\">"));
-  EXPECT_LT(html.find("HOLDS &amp; ends"), html.find("<h2 id=\"arm-peg\">Felt</h2>"));
-  EXPECT_NE(html.find("<th>torque %</th>"), std::string::npos);
+  EXPECT_LT(html.find("<h2 id=\"closed-loop\">"), html.find("<h3 id=\"peg\">"));
+  EXPECT_LT(html.find("<b>HOLDS</b> &amp; ends"), html.find("<h3 id=\"arm-peg\">Felt</h3>"));
+  EXPECT_NE(html.find("<th class=\"more\">torque %</th>"), std::string::npos);
   EXPECT_NE(html.find("telemetry, 1.200 s: depth -0.010 mm, force 7.5 N"), std::string::npos);
   EXPECT_NE(html.find("href=\"arm-peg/hand.csv\""), std::string::npos);
-  EXPECT_NE(html.find("src=\"arm-peg/figure.png\""), std::string::npos);
+  EXPECT_NE(html.find("src=\"arm-peg/figure.svg\""), std::string::npos);
 }
 
 }  // namespace

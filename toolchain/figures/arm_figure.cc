@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <functional>
+#include <limits>
 
 #include <fmt/format.h>
+
+#include "toolchain/figures/curve.h"
 
 namespace godobject::figures {
 namespace {
@@ -27,43 +30,60 @@ std::vector<std::string> modes(const TelemetryLog& log) {
   return names;
 }
 
-/// Returns a gnuplot data block with t, force, torque, distance [mm], depth [um], mode and joint torques [% of the
-/// limit]. Distance and depth are nan in a cycle without rendering.
-std::string cycle_block(const ArmLog& log, const std::vector<std::string>& names) {
-  std::string text = "$cycles << END\n";
-  auto out = std::back_inserter(text);
-  for (const TelemetryRow& row : log.cycles) {
-    const ReplayRow& c = row.cycle;
-    const auto mode = std::find(names.begin(), names.end(), row.mode) - names.begin();
-    fmt::format_to(out, "{:.4f} {:.6g} {:.6g}", c.t, c.wrench.force.norm(), c.wrench.torque.norm());
-    if (row.share > 0.0) {
-      fmt::format_to(out, " {:.6g} {:.6g}", 1e3 * (c.H_WS.translation - c.H_WD.translation).norm(),
-                     std::max(1e6 * c.depth, kDeepest_um));
-    } else {
-      text += " nan nan";
-    }
-    fmt::format_to(out, " {}", mode);
-    for (std::size_t i = 0; i < row.torque.size(); ++i)
-      fmt::format_to(out, " {:.5g}", 1e2 * row.torque[i] / log.torque_limits[i]);
-    text += "\n";
+/// The name of a curve's data block and its value in a cycle.
+struct ArmCurve {
+  std::string name;
+  std::function<double(const TelemetryRow&)> value;
+};
+
+/// Returns the curves of a run: force [N], torque [Nm], distance [mm] and depth [um], which are NaN in a cycle without
+/// rendering, the torque of each joint [% of its limit], and the mode's number.
+std::vector<ArmCurve> curves_of(const ArmLog& log, const std::vector<std::string>& names) {
+  const auto rendered = [](double value, const TelemetryRow& row) {
+    return row.share > 0.0 ? value : std::numeric_limits<double>::quiet_NaN();
+  };
+  std::vector<ArmCurve> curves = {
+      {"force", [](const TelemetryRow& row) { return row.cycle.wrench.force.norm(); }},
+      {"torque", [](const TelemetryRow& row) { return row.cycle.wrench.torque.norm(); }},
+      {"distance",
+       [rendered](const TelemetryRow& row) {
+         return rendered(1e3 * (row.cycle.H_WS.translation - row.cycle.H_WD.translation).norm(), row);
+       }},
+      {"depth",
+       [rendered](const TelemetryRow& row) { return rendered(std::max(1e6 * row.cycle.depth, kDeepest_um), row); }},
+      {"mode", [&names](const TelemetryRow& row) {
+         return static_cast<double>(std::find(names.begin(), names.end(), row.mode) - names.begin());
+       }}};
+  for (std::size_t i = 0; i < log.torque_limits.size(); ++i) {
+    curves.push_back({fmt::format("joint{}", i + 1), [i, limit = log.torque_limits[i]](const TelemetryRow& row) {
+                        return 1e2 * row.torque[i] / limit;
+                      }});
   }
-  return text + "END\n";
+  return curves;
 }
 
-std::string hand_block(const ArmLog& log) {
-  std::string text = "$hand << END\n";
-  for (const HandWork& row : log.hand) fmt::format_to(std::back_inserter(text), "{:.4f} {:.6g}\n", row.t, row.work);
-  return text + "END\n";
+/// Returns the data blocks of the run's curves and of the hand's work.
+std::string data_blocks(const ArmLog& log, const std::vector<std::string>& names) {
+  std::string text;
+  for (const ArmCurve& curve : curves_of(log, names)) {
+    std::vector<Sample> samples;
+    samples.reserve(log.cycles.size());
+    for (const TelemetryRow& row : log.cycles) samples.push_back({row.cycle.t, curve.value(row)});
+    text += curve_block(curve.name, samples);
+  }
+  std::vector<Sample> work;
+  for (const HandWork& row : log.hand) work.push_back({row.t, row.work});
+  return text + curve_block("work", work);
 }
 
-std::string curve(int column, const char* block = "$cycles") {
-  return fmt::format("plot {} using 1:{} with lines lw 1.3 lc rgb '#222222' notitle\n", block, column);
+std::string curve(const char* name) {
+  return fmt::format("plot ${} using 1:2 with lines lw 1.3 lc rgb '#222222' notitle\n", name);
 }
 
 std::string joint_curves(std::size_t joints) {
   std::string text = "set yrange [*:*]\nplot ";
   for (std::size_t i = 0; i < joints; ++i) {
-    text += fmt::format("{}$cycles using 1:{} with lines lw 1.3 lc rgb '{}' notitle", i == 0 ? "" : ", ", i + 7,
+    text += fmt::format("{}$joint{} using 1:2 with lines lw 1.3 lc rgb '{}' notitle", i == 0 ? "" : ", ", i + 1,
                         kJointColors[i % kJointColors.size()]);
   }
   return text + "\n";
@@ -88,36 +108,36 @@ std::string mode_tics(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::string gnuplot_text(const ArmFigure& figure, const std::filesystem::path& png) {
+std::string gnuplot_text(const ArmFigure& figure, const std::filesystem::path& svg) {
   const ArmLog& log = figure.log;
   const std::vector<std::string> names = modes(log.cycles);
   const std::size_t joints = log.torque_limits.size();
-  std::string force = curve(2);
+  std::string force = curve("force");
   force.insert(force.size() - 1, joint_keys(joints));
 
-  std::string text = cycle_block(log, names) + hand_block(log);
+  std::string text = data_blocks(log, names);
   text += sheet_head({.title = figure.title,
                       .panels = kArmPanels,
                       .height = 1700,
                       .begin = log.cycles.front().cycle.t,
                       .end = log.cycles.back().cycle.t},
-                     png);
+                     svg);
   const std::string zero = fmt::format("set yrange [{}:20]\n", kDeepest_um) +
-                           "plot 0 with lines dt 4 lw 1.2 lc rgb '#000000' notitle, " + curve(5).substr(5);
+                           "plot 0 with lines dt 4 lw 1.2 lc rgb '#000000' notitle, " + curve("depth").substr(5);
   text += "set offsets graph 0, graph 0, graph 0.06, graph 0\n";  // room above a curve that ends at a limit
   text += marker_text(figure.markers, true) + "set yrange [0:*]\nset ylabel 'force [N]'\n" + force + "unset key\n";
   text += marker_text(figure.markers, false);
-  text += "set ylabel 'torque [Nm]'\n" + curve(3);
-  text += "set ylabel 'distance [mm]'\n" + curve(4);
+  text += "set ylabel 'torque [Nm]'\n" + curve("torque");
+  text += "set ylabel 'distance [mm]'\n" + curve("distance");
   text += "set ylabel 'depth [um]'\n" + zero;
   text += "set ylabel 'joints [% of limit]'\n" + joint_curves(joints);
-  text += "set ylabel 'work of hand [J]'\n" + curve(2, "$hand");
-  text += "set ylabel ''\n" + mode_tics(names) + kTimeAxis + curve(6);
+  text += "set ylabel 'work of hand [J]'\n" + curve("work");
+  text += "set ylabel ''\n" + mode_tics(names) + kTimeAxis + curve("mode");
   return text + "unset multiplot\nset output\n";
 }
 
-void draw(const ArmFigure& figure, const std::filesystem::path& png) {
-  draw_with_gnuplot([&](const std::filesystem::path& file) { return gnuplot_text(figure, file); }, png);
+void draw(const ArmFigure& figure, const std::filesystem::path& svg) {
+  draw_with_gnuplot([&](const std::filesystem::path& file) { return gnuplot_text(figure, file); }, svg);
 }
 
 }  // namespace godobject::figures

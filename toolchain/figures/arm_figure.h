@@ -19,10 +19,10 @@ struct ArmFigure {
   ArmLog log;
 };
 
-/// Returns a gnuplot program, data included, that draws the figure into `png`.
-std::string gnuplot_text(const ArmFigure& figure, const std::filesystem::path& png);
+/// Returns a gnuplot program, data included, that draws the figure into the SVG file `svg`.
+std::string gnuplot_text(const ArmFigure& figure, const std::filesystem::path& svg);
 
 /// Draws the figure. Throws Failure if gnuplot is not installed or fails, or the file cannot be written.
-void draw(const ArmFigure& figure, const std::filesystem::path& png);
+void draw(const ArmFigure& figure, const std::filesystem::path& svg);
 
 }  // namespace godobject::figures

@@ -162,17 +162,17 @@ std::vector<std::string> judge_arm_runs(const std::vector<ArmRun>& runs) {
 
 const std::vector<ArmColumn>& arm_columns() {
   static const std::vector<ArmColumn> kColumns = {
-      {"closed loop", [](const ArmRun& r) { return r.name; }},
-      {"ended", [](const ArmRun& r) { return r.fault == 0 ? r.last_mode : fmt::format("fault {}", r.fault); }},
+      {"closed loop", [](const ArmRun& r) { return r.name; }, true},
+      {"ended", [](const ArmRun& r) { return r.fault == 0 ? r.last_mode : fmt::format("fault {}", r.fault); }, true},
       {"s", [](const ArmRun& r) { return fmt::format("{:.1f}", r.seconds); }},
       {"in contact", [](const ArmRun& r) { return fmt::format("{}", r.statistics.contact_cycles); }},
-      {"depth mm", [](const ArmRun& r) { return fmt::format("{:.3f}", 1e3 * r.statistics.penetration_max); }},
+      {"depth mm", [](const ArmRun& r) { return fmt::format("{:.3f}", 1e3 * r.statistics.penetration_max); }, true},
       {"behind mm",
        [](const ArmRun& r) {
          return r.crossing ? fmt::format("{:.3f}", 1e3 * r.crossing->distance) : std::string("-");
        }},
       {"device mm", [](const ArmRun& r) { return fmt::format("{:.1f}", 1e3 * r.distance); }},
-      {"force N", [](const ArmRun& r) { return fmt::format("{:.1f}", r.statistics.peak_force); }},
+      {"force N", [](const ArmRun& r) { return fmt::format("{:.1f}", r.statistics.peak_force); }, true},
       {"step N", [](const ArmRun& r) { return fmt::format("{:.1f}", r.statistics.force_step); }},
       {"cut", [](const ArmRun& r) { return fmt::format("{}", r.statistics.cut); }},
       {"ovf", [](const ArmRun& r) { return fmt::format("{}", r.statistics.overflow); }},

@@ -52,6 +52,7 @@ std::vector<std::string> judge_arm_runs(const std::vector<ArmRun>& runs);
 struct ArmColumn {
   const char* heading;
   std::string (*value)(const ArmRun& run);
+  bool on_phone = false;  ///< the page shows the column on a narrow screen, too
 };
 
 const std::vector<ArmColumn>& arm_columns();

@@ -13,6 +13,7 @@ namespace godobject::figures {
 namespace {
 
 constexpr double kSolve_us = 5.0;
+constexpr std::string_view kDefault = "contact";  // the default solver
 
 /// A claim on a solver's run in a scene. `missed` tells by how much the run misses it; empty: the claim holds.
 struct Claim {
@@ -93,49 +94,62 @@ std::string missed_most(const Claim& claim, const std::vector<const Entry*>& ent
   return fmt::format("MISSED {}, solver {}: {}{}", fmt::join(scenes, ", "), worst->solver, where, claim.missed(*worst));
 }
 
-/// Returns the claims that one solver holds in all of its scenes.
-std::string held(const std::vector<const Entry*>& entries) {
+/// Returns those of the claims that one solver holds in all of its scenes; empty: none. `of_time`: the claims on times,
+/// or the others.
+std::string held(bool of_time, const std::vector<const Entry*>& entries) {
   std::vector<std::string> words;
   for (const Claim& claim : kClaims) {
+    if (of_time != (claim.size != nullptr)) continue;
     const bool missed =
         std::any_of(entries.begin(), entries.end(), [&](const Entry* e) { return !claim.missed(*e).empty(); });
     std::string word = missed ? "" : claim.holds(entries);
     if (!word.empty()) words.push_back(std::move(word));
   }
-  return words.empty() ? "none of the claims" : fmt::format("{}", fmt::join(words, "; "));
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+/// Returns the sentences about one solver: missed claims, then those that hold.
+std::vector<std::string> judge_solver(bool of_time, const std::vector<const Entry*>& entries) {
+  std::vector<std::string> sentences;
+  for (const Claim& claim : kClaims) {
+    if (of_time != (claim.size != nullptr)) continue;
+    if (of_time) {
+      std::string sentence = missed_most(claim, entries);
+      if (!sentence.empty()) sentences.push_back(std::move(sentence));
+      continue;
+    }
+    for (const Entry* e : entries) {
+      const std::string what = claim.missed(*e);
+      if (!what.empty()) sentences.push_back(fmt::format("MISSED {}, solver {}: {}", e->scene, e->solver, what));
+    }
+  }
+  const std::string holds = held(of_time, entries);
+  if (!holds.empty())
+    sentences.push_back(fmt::format("HOLDS in every scene, solver {}: {}", entries.front()->solver, holds));
+  return sentences;
 }
 
 }  // namespace
 
-std::vector<std::string> judge(const std::vector<Entry>& entries) {
-  std::vector<std::string> sentences;
+Verdicts judge(const std::vector<Entry>& entries) {
   std::vector<std::string_view> solvers;
   for (const Entry& e : entries) {
     if (std::find(solvers.begin(), solvers.end(), e.solver) == solvers.end()) solvers.push_back(e.solver);
   }
-  std::vector<std::vector<const Entry*>> by_solver(solvers.size());
-  for (std::size_t i = 0; i < solvers.size(); ++i) {
+  std::stable_partition(solvers.begin(), solvers.end(), [](std::string_view solver) { return solver == kDefault; });
+  Verdicts verdicts;
+  const auto append = [](std::vector<std::string>& to, const std::vector<std::string>& sentences) {
+    to.insert(to.end(), sentences.begin(), sentences.end());
+  };
+  for (const std::string_view solver : solvers) {
+    std::vector<const Entry*> own;
     for (const Entry& e : entries) {
-      if (e.solver == solvers[i]) by_solver[i].push_back(&e);
+      if (e.solver == solver) own.push_back(&e);
     }
+    append(solver == kDefault ? verdicts.contact : verdicts.compared, judge_solver(false, own));
+    append(verdicts.times, judge_solver(true, own));
   }
-  for (const Claim& claim : kClaims) {
-    if (claim.size != nullptr) {
-      for (const auto& own : by_solver) {
-        std::string sentence = missed_most(claim, own);
-        if (!sentence.empty()) sentences.push_back(std::move(sentence));
-      }
-      continue;
-    }
-    for (const Entry& e : entries) {
-      const std::string what = claim.missed(e);
-      if (!what.empty()) sentences.push_back(fmt::format("MISSED {}, solver {}: {}", e.scene, e.solver, what));
-    }
-  }
-  for (const auto& own : by_solver) {
-    sentences.push_back(fmt::format("HOLDS in every scene, solver {}: {}", own.front()->solver, held(own)));
-  }
-  return sentences;
+  return verdicts;
 }
 
 }  // namespace godobject::figures

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
+#include <cstddef>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "toolchain/figures/curve.h"
 
 namespace godobject::figures {
 namespace {
@@ -32,14 +35,19 @@ constexpr std::size_t kPenetration = 2;
 /// By the order of the series; easy to tell apart for the colour-blind.
 constexpr std::array<const char*, 4> kColors = {"#e69f00", "#56b4e9", "#c2185b", "#222222"};
 
-std::string data_block(std::size_t number, const ReplayLog& log) {
-  std::string text = fmt::format("$data{} << END\n", number);
-  for (const ReplayRow& row : log) {
-    fmt::format_to(std::back_inserter(text), "{:.4f}", row.t);
-    for (const Panel& panel : kPanels) fmt::format_to(std::back_inserter(text), " {:.6g}", panel.value(row));
-    text += "\n";
+/// Returns the name of a curve's data block.
+std::string block_name(std::size_t series, std::size_t panel) { return fmt::format("data{}_{}", series, panel); }
+
+/// Returns the data blocks of a replay's curves, one for each panel.
+std::string data_blocks(std::size_t series, const ReplayLog& log) {
+  std::string text;
+  for (std::size_t k = 0; k < kPanels.size(); ++k) {
+    std::vector<Sample> curve;
+    curve.reserve(log.size());
+    for (const ReplayRow& row : log) curve.push_back({row.t, kPanels[k].value(row)});
+    text += curve_block(block_name(series, k), curve);
   }
-  return text + "END\n";
+  return text;
 }
 
 /// Upper end of an axis: the largest value of all solvers with a little room.
@@ -76,7 +84,7 @@ std::string panel_text(const Figure& figure, std::size_t row) {
   if (row + 1 == kPanels.size()) text += kTimeAxis;
   text += "plot ";
   for (std::size_t i = 0; i < figure.series.size(); ++i) {
-    text += fmt::format("{}$data{} using 1:{} with lines lw 1.3 lc rgb '{}' notitle", i == 0 ? "" : ", ", i, row + 2,
+    text += fmt::format("{}${} using 1:2 with lines lw 1.3 lc rgb '{}' notitle", i == 0 ? "" : ", ", block_name(i, row),
                         kColors[i % kColors.size()]);
   }
   if (depth) text += fmt::format(", {:.6g} with lines dt 4 lw 1.2 lc rgb '#000000' notitle", voxel_mm);
@@ -86,18 +94,18 @@ std::string panel_text(const Figure& figure, std::size_t row) {
 
 }  // namespace
 
-std::string gnuplot_text(const Figure& figure, const std::filesystem::path& png) {
+std::string gnuplot_text(const Figure& figure, const std::filesystem::path& svg) {
   std::string text;
-  for (std::size_t i = 0; i < figure.series.size(); ++i) text += data_block(i, figure.series[i].log);
+  for (std::size_t i = 0; i < figure.series.size(); ++i) text += data_blocks(i, figure.series[i].log);
   const ReplayLog& first = figure.series.front().log;
   text += sheet_head({.title = figure.title, .panels = kPanels.size(), .begin = first.front().t, .end = first.back().t},
-                     png);
+                     svg);
   for (std::size_t row = 0; row < kPanels.size(); ++row) text += panel_text(figure, row);
   return text + "unset multiplot\nset output\n";
 }
 
-void draw(const Figure& figure, const std::filesystem::path& png) {
-  draw_with_gnuplot([&](const std::filesystem::path& file) { return gnuplot_text(figure, file); }, png);
+void draw(const Figure& figure, const std::filesystem::path& svg) {
+  draw_with_gnuplot([&](const std::filesystem::path& file) { return gnuplot_text(figure, file); }, svg);
 }
 
 }  // namespace godobject::figures

@@ -24,10 +24,10 @@ struct Figure {
   std::vector<Series> series;  ///< one or more; later ones are drawn over earlier ones
 };
 
-/// Returns a gnuplot program, data included, that draws the figure into `png`.
-std::string gnuplot_text(const Figure& figure, const std::filesystem::path& png);
+/// Returns a gnuplot program, data included, that draws the figure into the SVG file `svg`.
+std::string gnuplot_text(const Figure& figure, const std::filesystem::path& svg);
 
 /// Draws the figure. Throws Failure if gnuplot is not installed or fails, or the file cannot be written.
-void draw(const Figure& figure, const std::filesystem::path& png);
+void draw(const Figure& figure, const std::filesystem::path& svg);
 
 }  // namespace godobject::figures

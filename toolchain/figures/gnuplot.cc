@@ -24,11 +24,10 @@ std::string marker_text(const std::vector<Marker>& markers, bool named) {
   return text;
 }
 
-std::string sheet_head(const PanelSheet& sheet, const std::filesystem::path& png) {
+std::string sheet_head(const PanelSheet& sheet, const std::filesystem::path& svg) {
   return fmt::format(
-             "set terminal pngcairo size 1300,{} font 'DejaVu Sans,11' background rgb 'white' noenhanced\nset output "
-             "{}\n",
-             sheet.height, quoted(png.string())) +
+             "set terminal svg size 1300,{} font 'DejaVu Sans,14' background rgb 'white' noenhanced\nset output {}\n",
+             sheet.height, quoted(svg.string())) +
          fmt::format("set multiplot layout {},1 title {} margins 0.075,0.985,0.045,0.93 spacing 0.02,0.02\n",
                      sheet.panels, quoted(sheet.title)) +
          fmt::format(
@@ -38,11 +37,12 @@ std::string sheet_head(const PanelSheet& sheet, const std::filesystem::path& png
 }
 
 void draw_with_gnuplot(const std::function<std::string(const std::filesystem::path&)>& text,
-                       const std::filesystem::path& png) {
-  const files::WorkFolder folder(png);
-  const auto program = folder.write("figure.gp", text(folder.path() / "figure.png"));
+                       const std::filesystem::path& picture) {
+  const files::WorkFolder folder(picture);
+  const std::string drawn = "figure" + picture.extension().string();
+  const auto program = folder.write("figure.gp", text(folder.path() / drawn));
   command::run_program({"gnuplot", program.string()}, "gnuplot-nox");
-  folder.deliver("figure.png", png);
+  folder.deliver(drawn.c_str(), picture);
 }
 
 }  // namespace godobject::figures

@@ -29,14 +29,15 @@ struct PanelSheet {
   double end = 0.0;
 };
 
-std::string sheet_head(const PanelSheet& sheet, const std::filesystem::path& png);
+/// Returns gnuplot commands that begin the picture in the SVG file `svg`.
+std::string sheet_head(const PanelSheet& sheet, const std::filesystem::path& svg);
 
 /// Gnuplot command before the last panel: it labels the axis of time.
 extern const char* const kTimeAxis;
 
-/// Draws a picture into the file `png`. `text` returns the gnuplot program for a given output file. Throws Failure if
-/// gnuplot is not installed or fails, or the file cannot be written.
+/// Draws a picture into the file `picture`. `text` returns the gnuplot program for a given output file. Throws Failure
+/// if gnuplot is not installed or fails, or the file cannot be written.
 void draw_with_gnuplot(const std::function<std::string(const std::filesystem::path&)>& text,
-                       const std::filesystem::path& png);
+                       const std::filesystem::path& picture);
 
 }  // namespace godobject::figures

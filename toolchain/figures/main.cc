@@ -41,10 +41,11 @@ Inputs:
   for a scene    OUT/NAME/SOLVER.csv of godobject-replay, IMAGES/IMAGE.scene of godobject-scenec
   for a run      OUT/NAME/telemetry.csv and OUT/NAME/hand.csv of godobject-controller, and the image
   for a study    OUT/NAME/report.html of godobject-report, to which the page links
-  optional       pictures OUT/NAME/SOLVER_MOMENT.png and OUT/NAME/telemetry_MOMENT.png of godobject-view
+  optional       pictures OUT/NAME/SOLVER_MOMENT.png and OUT/NAME/telemetry_MOMENT.png of godobject-view; a moving
+                 picture OUT/NAME/replay.html of godobject-page
 Outputs:
-  OUT/NAME/figure.png (with gnuplot), OUT/statistics.csv, OUT/index.html; on stdout the table (the CSV file has more
-  columns) and verdicts on the claims of the paper and of the solver contact, missed ones first
+  OUT/NAME/figure.svg (with gnuplot), OUT/statistics.csv, OUT/index.html; on stdout the table (the CSV file has more
+  columns) and verdicts on the claims of the paper and of the solver contact, those on contact last
 
 Percentiles are nearest-rank, over the cycles in contact; "over 1 ms" counts all cycles.
 
@@ -69,14 +70,14 @@ void check_files(const Options& options, const Plan& plan) {
   for (const ScenePlan& scene : plan.scenes) {
     for (const std::string& solver : options.solvers)
       files::require_input(output / scene.name / (solver + ".csv"), "make it with godobject-replay");
-    files::output_target(output / scene.name / "figure.png");
+    files::output_target(output / scene.name / "figure.svg");
   }
   for (const StudyPlan& study : plan.studies)
     files::require_input(output / study.name / "report.html", "make it with godobject-report");
   for (const ArmPlan& run : plan.runs) {
     for (const char* file : {"telemetry.csv", "hand.csv"})
       files::require_input(output / run.scene.name / file, "make it with godobject-controller --log");
-    files::output_target(output / run.scene.name / "figure.png");
+    files::output_target(output / run.scene.name / "figure.svg");
   }
 }
 
@@ -100,7 +101,7 @@ void add_scene(const Options& options, const ScenePlan& plan, PageContent& conte
     content.entries.push_back(std::move(entry));
     figure.series.push_back({solver, std::move(log)});
   }
-  draw(figure, folder / "figure.png");
+  draw(figure, folder / "figure.svg");
   content.figures.push_back(std::move(figure));
 }
 
@@ -113,7 +114,7 @@ void add_run(const Options& options, const ArmPlan& plan, PageContent& content) 
   run.name = plan.scene.name;
   run.voxel_size = scene.grid.voxel_size;
   if (plan.scene.barrier) run.crossing = furthest_crossing(rendered(figure.log.cycles), scene, *plan.scene.barrier);
-  draw(figure, folder / "figure.png");
+  draw(figure, folder / "figure.svg");
   content.runs.push_back(std::move(run));
   content.arm_figures.push_back(std::move(figure));
 }
@@ -140,10 +141,16 @@ void make_figures(const Options& options) {
   write(output / "statistics.csv", csv_table(content.entries));
   write(output / "index.html", page(content, output));
   fmt::print("{}\n", text_table(content.entries));
-  for (const std::string& verdict : content.verdicts) fmt::print("{}\n", verdict);
-  if (content.runs.empty()) return;
-  fmt::print("\n{}\n", arm_table(content.runs));
-  for (const std::string& verdict : content.run_verdicts) fmt::print("{}\n", verdict);
+  const auto print = [](const std::vector<std::string>& verdicts) {
+    for (const std::string& verdict : verdicts) fmt::print("{}\n", verdict);
+  };
+  print(content.verdicts.compared);
+  fmt::print("\nTimes; a busy machine makes them longer:\n");
+  print(content.verdicts.times);
+  if (!content.runs.empty()) fmt::print("\n{}", arm_table(content.runs));
+  fmt::print("\nThe solver contact:\n");
+  print(content.verdicts.contact);
+  print(content.run_verdicts);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "toolchain/figures/arm_figure.h"
 #include "toolchain/figures/arm_run.h"
+#include "toolchain/figures/claims.h"
 #include "toolchain/figures/figure.h"
 #include "toolchain/figures/plan.h"
 #include "toolchain/figures/statistics.h"
@@ -17,15 +18,17 @@ struct PageContent {
   Plan plan;
   std::vector<Figure> figures;
   std::vector<Entry> entries;
-  std::vector<std::string> verdicts;
+  Verdicts verdicts;
   std::vector<ArmFigure> arm_figures;
   std::vector<ArmRun> runs;
   std::vector<std::string> run_verdicts;
 };
 
-/// Returns the static HTML page for `folder`: a description of the solvers, the table, the verdicts, and for each scene
-/// its figure, the pictures in its folder (PNG, by moment) with depth and force at their moment, and its replays; then
-/// links to the studies, and the same for the runs on an arm.
+/// Returns the static HTML page for `folder`. It begins with a moving picture of the first scene, if its folder has one
+/// (replay.html), and the verdicts on the solver `contact` and on the runs on an arm. For each scene follow its figure,
+/// the pictures in its folder (PNG, by moment) with depth and force at their moment, and its replays; the same for each
+/// run, before the scenes; then links to the studies, the table of the replays with the verdicts on the other solvers,
+/// and those on times.
 std::string page(const PageContent& content, const std::filesystem::path& folder);
 
 }  // namespace godobject::figures

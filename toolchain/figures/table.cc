@@ -26,9 +26,9 @@ std::string behind(const Entry& e) {
 
 const std::vector<Column>& columns() {
   static const std::vector<Column> kColumns = {
-      {"scene", "scene", [](const Entry& e) { return e.scene; }, "scene"},
-      {"solver", "solver", [](const Entry& e) { return e.solver; }, "solver"},
-      {"depth [mm]", "penetration_max_mm", depth, "depth mm"},
+      {"scene", "scene", [](const Entry& e) { return e.scene; }, "scene", true},
+      {"solver", "solver", [](const Entry& e) { return e.solver; }, "solver", true},
+      {"depth [mm]", "penetration_max_mm", depth, "depth mm", true},
       {"mean depth [mm]", "penetration_mean_mm",
        [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_mean); }},
       {"depth [voxels]", "penetration_max_voxels",
@@ -39,7 +39,7 @@ const std::vector<Column>& columns() {
        [](const Entry& e) { return std::string(e.statistics.depth_is_bound ? "yes" : "no"); }},
       {"behind [mm]", "furthest_behind_barrier_mm", behind, "behind mm"},
       {"force [N]", "peak_force_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.peak_force); },
-       "force N"},
+       "force N", true},
       {"force step [N]", "largest_force_step_n",
        [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.force_step); }, "step N"},
       {"points", "peak_contacts", [](const Entry& e) { return fmt::format("{:.0f}", e.statistics.peak_contacts); },

@@ -13,6 +13,7 @@ struct Column {
   const char* name;
   std::string (*value)(const Entry& entry);
   const char* narrow = nullptr;  ///< heading in the table for a terminal; null: not in that table
+  bool on_phone = false;         ///< the page shows the column on a narrow screen, too
 };
 
 /// Returns the columns: scene, solver, penetration in mm and in voxels (a lower bound if it reaches the limit of the
