@@ -1,0 +1,266 @@
+#include "toolchain/page/page_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "toolchain/command_line/failure.h"
+#include "toolchain/page/column_pack.h"
+#include "toolchain/page/thinning.h"
+#include "toolchain/scene_compiler/mesh/mass_properties.h"
+#include "toolchain/scene_compiler/mesh/mesh_edges.h"
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
+#include "toolchain/viewer/camera.h"
+
+namespace godobject::page {
+namespace {
+
+using command::ExitCode;
+using command::Failure;
+using figures::ReplayLog;
+using figures::ReplayRow;
+using nlohmann::json;
+using scene_compiler::TriangleMesh;
+
+// Steps of the columns: far below what a plot or a picture shows.
+constexpr double kTimeStep = 1e-6;       // [s]
+constexpr double kPositionStep = 1e-7;   // [m]
+constexpr double kRotationStep = 1e-6;   // of a component of a unit quaternion
+constexpr double kForceStep = 1e-4;      // [N]
+constexpr double kTorqueStep = 1e-6;     // [Nm]
+constexpr double kDistanceStep = 1e-8;   // of depth and stretch [m]
+constexpr double kDurationStep = 1e-8;   // [s]
+constexpr double kQuantisation = 65535;  // steps along an edge of a mesh's bounding box
+
+json array_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Returns the centre of mass of the enclosed volume; of an open mesh, that of its surface. In the mesh's frame [m].
+Vector3 centre_of_mass(const TriangleMesh& mesh, bool closed) {
+  if (closed) {
+    const auto moments = scene_compiler::moments_of_volume(mesh);
+    if (moments.volume > 0.0) return moments.center;
+  }
+  Vector3 sum = Vector3::Zero();
+  double area = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+    const double part = scene_compiler::triangle_area(p, q, r);
+    sum += part * (p + q + r) / 3.0;
+    area += part;
+  }
+  return sum / area;
+}
+
+/// Returns the entry of a body in the header.
+json body_entry(const TriangleMesh& mesh, const std::string& name, ColumnPack& pack) {
+  if (mesh.triangles.size() > kMaxTriangles) {
+    throw Failure(ExitCode::kBadData, fmt::format("{}: has {} triangles, a page shows at most {}; write a scene file "
+                                                  "with a decimated mesh for the page",
+                                                  name, mesh.triangles.size(), kMaxTriangles));
+  }
+  Vector3 low = mesh.vertices.front();
+  Vector3 high = low;
+  for (const Vector3& vertex : mesh.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  json entry{{"name", name}, {"low", array_of(low)}, {"high", array_of(high)}};
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> offsets;
+    for (const Vector3& vertex : mesh.vertices) offsets.push_back(vertex[axis] - low[axis]);
+    const double step = std::max((high[axis] - low[axis]) / kQuantisation, 1e-12);  // a flat mesh
+    entry["vertices"].push_back(pack.add(offsets, step));
+  }
+  std::vector<std::uint32_t> corners;
+  for (const auto& triangle : mesh.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  entry["triangles"] = pack.add(corners);
+  const bool closed = scene_compiler::MeshEdges(mesh).closed();
+  entry["closed"] = closed;
+  entry["centre"] = array_of(centre_of_mass(mesh, closed));
+  return entry;
+}
+
+/// Refuses replays of different motions. A row of `bad_input` may have any device pose.
+void require_same_motion(const std::vector<NamedReplay>& replays) {
+  constexpr double kSame = 1e-6;  // [m] and of a quaternion's components: a replay copies its path
+  const NamedReplay& first = replays.front();
+  for (const NamedReplay& other : replays) {
+    const auto refuse = [&](const std::string& how) {
+      throw Failure(ExitCode::kBadData,
+                    fmt::format("{} and {}: are not replays of the same motion: {}; make a page for each", first.name,
+                                other.name, how));
+    };
+    if (other.log.size() != first.log.size())
+      refuse(fmt::format("{} and {} cycles", first.log.size(), other.log.size()));
+    for (std::size_t i = 0; i < first.log.size(); ++i) {
+      const ReplayRow &a = first.log[i], &b = other.log[i];
+      if (std::abs(a.t - b.t) > kSame) refuse(fmt::format("the times of row {} are {} and {} s", i + 1, a.t, b.t));
+      const double moved = (a.H_WD.translation - b.H_WD.translation).cwiseAbs().maxCoeff();
+      const double turned = (a.H_WD.rotation.coeffs() - b.H_WD.rotation.coeffs()).cwiseAbs().maxCoeff();
+      if (moved > kSame || turned > kSame) refuse(fmt::format("the device poses at {} s differ", a.t));
+    }
+  }
+}
+
+/// The device poses of a log. A row that is no pose repeats the pose before it.
+std::vector<Pose> device_poses(const ReplayLog& log) {
+  std::vector<Pose> poses;
+  Pose last = log.front().H_WS;
+  for (const ReplayRow& row : log) {
+    const bool is_pose = row.H_WD.is_finite() && std::abs(row.H_WD.rotation.norm() - 1.0) < 1e-3;
+    if (is_pose) last = row.H_WD;
+    poses.push_back(last);
+  }
+  return poses;
+}
+
+/// Writes the columns of a scene's replays.
+class ReplayColumns {
+ public:
+  ReplayColumns(const std::vector<NamedReplay>& replays, const Vector3& p_M, ColumnPack& pack)
+      : replays_(replays),
+        p_M_(p_M),
+        pack_(pack),
+        device_(device_poses(replays.front().log)),
+        thinning_(device_.size()) {}
+
+  /// Sets the keys of the header that belong to the replays.
+  void write(json& header) {
+    const ReplayLog& log = replays_.front().log;
+    header["cycles"] = log.size();
+    header["bucket"] = thinning_.bucket();
+    header["t"] = selected([&](std::size_t i) { return log[i].t; }, kTimeStep);
+    header["device"] = pose_columns([&](std::size_t i) -> const Pose& { return device_[i]; });
+    for (const NamedReplay& replay : replays_) header["replays"].push_back(replay_entry(replay));
+    header["statuses"] = statuses_;
+  }
+
+ private:
+  using NumberOf = std::function<double(std::size_t)>;  ///< of a cycle
+
+  std::vector<double> all(const NumberOf& number_of) const {
+    std::vector<double> numbers(device_.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = number_of(i);
+    return numbers;
+  }
+
+  json selected(const NumberOf& number_of, double step) { return pack_.add(thinning_.select(all(number_of)), step); }
+
+  json pose_columns(const std::function<const Pose&(std::size_t)>& pose_of) {
+    json columns = json::array();
+    for (int axis = 0; axis < 3; ++axis)
+      columns.push_back(selected([&](std::size_t i) { return pose_of(i).translation[axis]; }, kPositionStep));
+    for (const int component : {3, 0, 1, 2})  // Eigen stores x, y, z, w
+      columns.push_back(
+          selected([&](std::size_t i) { return pose_of(i).rotation.coeffs()[component]; }, kRotationStep));
+    return columns;
+  }
+
+  json replay_entry(const NamedReplay& replay) {
+    const ReplayLog& log = replay.log;
+    json entry{{"name", replay.name}};
+    entry["pose"] = pose_columns([&](std::size_t i) -> const Pose& { return log[i].H_WS; });
+    for (int axis = 0; axis < 3; ++axis) {
+      entry["force"].push_back(selected([&](std::size_t i) { return log[i].wrench.force[axis]; }, kForceStep));
+      entry["torque"].push_back(selected([&](std::size_t i) { return log[i].wrench.torque[axis]; }, kTorqueStep));
+    }
+    entry["status"] = selected([&](std::size_t i) { return static_cast<double>(status_number(log[i].status)); }, 1.0);
+    plot(
+        entry, "force", [&](std::size_t i) { return log[i].wrench.force.norm(); }, kForceStep);
+    plot(
+        entry, "torque", [&](std::size_t i) { return log[i].wrench.torque.norm(); }, kTorqueStep);
+    plot(
+        entry, "depth", [&](std::size_t i) { return log[i].depth; }, kDistanceStep);
+    plot(
+        entry, "stretch", [&](std::size_t i) { return (device_[i] * p_M_ - log[i].H_WS * p_M_).norm(); },
+        kDistanceStep);
+    plot(
+        entry, "contacts", [&](std::size_t i) { return log[i].contacts; }, 1.0);
+    plot(
+        entry, "time", [&](std::size_t i) { return 1e-9 * (log[i].step1_ns + log[i].solve_ns); }, kDurationStep);
+    return entry;
+  }
+
+  /// Adds a plotted quantity: its value at each sample, and if cycles are left out, the extremes of each bucket.
+  void plot(json& entry, const char* name, const NumberOf& number_of, double step) {
+    const std::vector<double> numbers = all(number_of);
+    entry["plots"][name]["values"] = pack_.add(thinning_.select(numbers), step);
+    if (thinning_.bucket() > 1) entry["plots"][name]["extremes"] = pack_.add(thinning_.extremes(numbers), step);
+  }
+
+  std::size_t status_number(const std::string& status) {
+    const auto found = std::find(statuses_.begin(), statuses_.end(), status);
+    const auto number = static_cast<std::size_t>(found - statuses_.begin());
+    if (found == statuses_.end()) statuses_.push_back(status);
+    return number;
+  }
+
+  const std::vector<NamedReplay>& replays_;
+  const Vector3 p_M_;  ///< the moving body's centre of mass
+  ColumnPack& pack_;
+  const std::vector<Pose> device_;
+  const Thinning thinning_;
+  std::vector<std::string> statuses_;  ///< as they first appear
+};
+
+/// Returns placements for the camera: first the one with the largest force, then others in contact, or any.
+std::vector<viewer::Placement> shown_placements(const std::vector<NamedReplay>& replays) {
+  constexpr std::size_t kMost = 16;
+  const auto& log = replays.front().log;
+  const std::vector<Pose> device = device_poses(log);
+  std::vector<std::size_t> cycles;
+  std::size_t strongest = 0;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    if (log[i].status != "free") cycles.push_back(i);
+    if (log[i].wrench.force.norm() > log[strongest].wrench.force.norm()) strongest = i;
+  }
+  if (cycles.empty()) {
+    for (std::size_t i = 0; i < log.size(); ++i) cycles.push_back(i);
+  }
+  std::vector<viewer::Placement> placements{{device[strongest], log[strongest].H_WS}};
+  for (std::size_t k = 0; k < kMost; ++k) {
+    const std::size_t i = cycles[k * cycles.size() / kMost];
+    placements.push_back({device[i], log[i].H_WS});
+  }
+  return placements;
+}
+
+json camera_entry(const PageScene& scene) {
+  const viewer::Camera camera = viewer::make_camera({.still = scene.bodies.still,
+                                                     .moving = scene.bodies.moving,
+                                                     .placements = shown_placements(scene.replays),
+                                                     .up_axis = scene.up_axis,
+                                                     .zoom = 1.0,
+                                                     .direction = {}});
+  return {{"eye", array_of(camera.eye)}, {"target", array_of(camera.target)}, {"half_view", viewer::kHalfView}};
+}
+
+std::string length_bytes(std::size_t length) {
+  std::string bytes;
+  for (int i = 0; i < 4; ++i) bytes += static_cast<char>((length >> (8 * i)) & 0xffu);
+  return bytes;
+}
+
+}  // namespace
+
+std::string page_data(const PageScene& scene) {
+  require_same_motion(scene.replays);
+  ColumnPack pack;
+  json header;
+  header["up"] = scene.up_axis;
+  header["still"] = body_entry(scene.bodies.still, scene.still_name, pack);
+  header["moving"] = body_entry(scene.bodies.moving, scene.moving_name, pack);
+  if (scene.workspace) header["workspace"] = {{"low", scene.workspace->low}, {"high", scene.workspace->high}};
+  header["camera"] = camera_entry(scene);
+  const auto& centre = header["moving"]["centre"];
+  ReplayColumns(scene.replays, Vector3(centre[0], centre[1], centre[2]), pack).write(header);
+  const std::string text = header.dump(-1, ' ', true, json::error_handler_t::replace);
+  return length_bytes(text.size()) + text + pack.bytes();
+}
+
+}  // namespace godobject::page

@@ -1,0 +1,129 @@
+import {
+  Color, DoubleSide, GreaterDepth, Group, LessEqualDepth, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
+  MeshStandardMaterial, NotEqualStencilFunc, ReplaceStencilOp, Vector3,
+} from 'three';
+import { ForceArrow, TorqueArrow } from './arrows.js';
+import { replayColours } from './theme.js';
+
+const stillColour = 0xc9c3b6;
+const ghostColour = 0xf59e0b;
+// The order in which transparent things are drawn. The god object counts as one, to be drawn over the hidden ghost.
+const order = { hiddenGhost: 1, godObject: 2, ghostDepth: 3, ghost: 4 };
+
+function solid(colour, renderOrder) {
+  return { material: new MeshStandardMaterial({
+    color: colour, roughness: 0.62, metalness: 0.02, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1, transparent: renderOrder > 0,
+  }), renderOrder };
+}
+
+function meshOf(geometry, { material, renderOrder }) {
+  const mesh = new Mesh(geometry, material);
+  mesh.renderOrder = renderOrder;
+  return mesh;
+}
+
+function lines(geometry, colour, opacity, renderOrder) {
+  const material = new LineBasicMaterial({ color: colour, transparent: true, opacity });
+  const made = new LineSegments(geometry, material);
+  made.renderOrder = renderOrder;
+  return made;
+}
+
+/** The body that stands still. Its frame is the world. */
+export class StillBody extends Group {
+  constructor(geometries, closed, cut, size) {
+    super();
+    this.surface = meshOf(geometries.surface, solid(stillColour, 0));
+    this.edges = lines(geometries.edges, 0x4b463c, 0.35, 0.5);
+    this.add(this.surface, this.edges);
+    this.cut = cut;
+    if (closed) {
+      this.closing = cut.closing(geometries.surface, 0xa8a090, size, 0.1);
+      this.add(this.closing.counted, this.closing.cap);
+    }
+  }
+
+  refresh() {
+    const planes = this.cut.planesFor(false);
+    for (const object of [this.surface, this.edges]) object.material.clippingPlanes = planes;
+    if (this.closing) this.closing.counted.visible = this.closing.cap.visible = planes.length > 0;
+  }
+}
+
+/** Sets an object to the pose of a sample. */
+function setPose(object, [x, y, z, qw, qx, qy, qz], i) {
+  object.position.set(x[i], y[i], z[i]);
+  object.quaternion.set(qx[i], qy[i], qz[i], qw[i]).normalize();
+}
+
+/** Returns a translucent body of which only the outermost layer shows, and faintly where the still body hides it. */
+function ghostBody(geometries) {
+  const group = new Group();
+  const colour = new Color(ghostColour);
+  const hidden = new MeshBasicMaterial({
+    color: colour, transparent: true, opacity: 0.3, depthFunc: GreaterDepth, depthWrite: false, stencilWrite: true,
+    stencilRef: 255, stencilFunc: NotEqualStencilFunc, stencilZPass: ReplaceStencilOp,
+  });
+  const hiddenMesh = meshOf(geometries.surface, { material: hidden, renderOrder: order.hiddenGhost });
+  hiddenMesh.onAfterRender = (renderer) => renderer.clearStencil();
+  const depth = new MeshBasicMaterial({ colorWrite: false, transparent: true });
+  const shown = new MeshStandardMaterial({
+    color: colour, transparent: true, opacity: 0.45, roughness: 0.7, depthFunc: LessEqualDepth, depthWrite: false,
+  });
+  group.add(
+    hiddenMesh,
+    meshOf(geometries.surface, { material: depth, renderOrder: order.ghostDepth }),
+    meshOf(geometries.surface, { material: shown, renderOrder: order.ghost }),
+    lines(geometries.edges, 0xb45309, 0.4, order.ghost),
+  );
+  return group;
+}
+
+/** One replay in 3D: god object, device pose and arrows. */
+export class ReplayBodies extends Group {
+  /** `scale`: lengths of the longest arrows [m] and the largest force and torque of all replays. */
+  constructor(data, index, geometries, cut, scale, size) {
+    super();
+    this.device = data.device;
+    this.replay = data.replays[index];
+    this.centre = new Vector3(...data.moving.centre);
+    this.cut = cut;
+    const colour = replayColours[index];
+    this.godObject = new Group();
+    this.surface = meshOf(geometries.surface, solid(colour, order.godObject));
+    this.edges = lines(geometries.edges, new Color(colour).multiplyScalar(0.35), 0.6, order.godObject + 0.2);
+    this.godObject.add(this.surface, this.edges);
+    if (data.moving.closed) {
+      this.closing = cut.closing(geometries.surface, new Color(colour).multiplyScalar(0.6), size, order.godObject + 0.3);
+      for (const object of [...this.closing.counted.children, this.closing.cap]) object.material.transparent = true;
+      this.godObject.add(this.closing.counted);
+      this.add(this.closing.cap);
+    }
+    this.ghost = ghostBody(geometries);
+    this.force = new ForceArrow(0xe11d48, scale.length, scale.force);
+    this.torque = new TorqueArrow(0x16a34a, scale.radius, scale.torque);
+    this.add(this.godObject, this.ghost, this.force, this.torque);
+  }
+
+  /** Returns the centre of mass of the god object in W [m]. */
+  place() {
+    return this.centre.clone().applyQuaternion(this.godObject.quaternion).add(this.godObject.position);
+  }
+
+  show(i) {
+    setPose(this.godObject, this.replay.pose, i);
+    setPose(this.ghost, this.device, i);
+    const at = this.centre.clone().applyQuaternion(this.ghost.quaternion).add(this.ghost.position);
+    const vector = (columns) => new Vector3(columns[0][i], columns[1][i], columns[2][i]);
+    this.force.show(at, vector(this.replay.force));
+    this.torque.show(at, vector(this.replay.torque));
+  }
+
+  refresh() {
+    const planes = this.cut.planesFor(true);
+    for (const object of [this.surface, this.edges]) object.material.clippingPlanes = planes;
+    for (const part of this.ghost.children) part.material.clippingPlanes = planes;
+    if (this.closing) this.closing.counted.visible = this.closing.cap.visible = planes.length > 0;
+  }
+}
