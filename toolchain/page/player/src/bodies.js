@@ -39,7 +39,7 @@ export class StillBody extends Group {
     this.add(this.surface, this.edges);
     this.cut = cut;
     if (closed) {
-      this.closing = cut.closing(geometries.surface, 0xa8a090, size, 0.1);
+      this.closing = cut.closing(geometries.surface, 0xd9a27c, size, 0.1);
       this.add(this.closing.counted, this.closing.cap);
     }
   }
@@ -57,25 +57,41 @@ function setPose(object, [x, y, z, qw, qx, qy, qz], i) {
   object.quaternion.set(qx[i], qy[i], qz[i], qw[i]).normalize();
 }
 
+/** Tells if two objects are at one pose, so that one hides the other. `near`: as a length [m] */
+function samePose(a, b, near) {
+  return a.position.distanceTo(b.position) < near && a.quaternion.angleTo(b.quaternion) < 1e-4;
+}
+
+/** Makes a material clearer where it faces the eye, so that its outline stands out. */
+function clearInside(material) {
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace('#include <opaque_fragment>', `
+      float facing = abs(dot(normalize(vViewPosition), normal));
+      diffuseColor.a *= mix(1.0, 0.24, smoothstep(0.0, 0.75, facing));
+      #include <opaque_fragment>`);
+  };
+  return material;
+}
+
 /** Returns a translucent body of which only the outermost layer shows, and faintly where the still body hides it. */
 function ghostBody(geometries) {
   const group = new Group();
   const colour = new Color(ghostColour);
   const hidden = new MeshBasicMaterial({
-    color: colour, transparent: true, opacity: 0.3, depthFunc: GreaterDepth, depthWrite: false, stencilWrite: true,
+    color: colour, transparent: true, opacity: 0.22, depthFunc: GreaterDepth, depthWrite: false, stencilWrite: true,
     stencilRef: 255, stencilFunc: NotEqualStencilFunc, stencilZPass: ReplaceStencilOp,
   });
   const hiddenMesh = meshOf(geometries.surface, { material: hidden, renderOrder: order.hiddenGhost });
   hiddenMesh.onAfterRender = (renderer) => renderer.clearStencil();
   const depth = new MeshBasicMaterial({ colorWrite: false, transparent: true });
-  const shown = new MeshStandardMaterial({
-    color: colour, transparent: true, opacity: 0.45, roughness: 0.7, depthFunc: LessEqualDepth, depthWrite: false,
-  });
+  const shown = clearInside(new MeshStandardMaterial({
+    color: colour, transparent: true, opacity: 0.85, roughness: 0.7, depthFunc: LessEqualDepth, depthWrite: false,
+  }));
   group.add(
     hiddenMesh,
     meshOf(geometries.surface, { material: depth, renderOrder: order.ghostDepth }),
     meshOf(geometries.surface, { material: shown, renderOrder: order.ghost }),
-    lines(geometries.edges, 0xb45309, 0.4, order.ghost),
+    lines(geometries.edges, 0xd97706, 0.9, order.ghost),
   );
   return group;
 }
@@ -89,6 +105,7 @@ export class ReplayBodies extends Group {
     this.replay = data.replays[index];
     this.centre = new Vector3(...data.moving.centre);
     this.cut = cut;
+    this.size = scale.length;
     const colour = replayColours[index];
     this.godObject = new Group();
     this.surface = meshOf(geometries.surface, solid(colour, order.godObject));
@@ -114,6 +131,7 @@ export class ReplayBodies extends Group {
   show(i) {
     setPose(this.godObject, this.replay.pose, i);
     setPose(this.ghost, this.device, i);
+    this.ghost.visible = !samePose(this.ghost, this.godObject, 1e-4 * this.size);
     const at = this.centre.clone().applyQuaternion(this.ghost.quaternion).add(this.ghost.position);
     const vector = (columns) => new Vector3(columns[0][i], columns[1][i], columns[2][i]);
     this.force.show(at, vector(this.replay.force));
@@ -124,6 +142,7 @@ export class ReplayBodies extends Group {
     const planes = this.cut.planesFor(true);
     for (const object of [this.surface, this.edges]) object.material.clippingPlanes = planes;
     for (const part of this.ghost.children) part.material.clippingPlanes = planes;
+    this.ghost.children[0].visible = !this.cut.on; // the cut shows what the still body hides
     if (this.closing) this.closing.counted.visible = this.closing.cap.visible = planes.length > 0;
   }
 }

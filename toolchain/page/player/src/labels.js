@@ -11,7 +11,7 @@ export class Labels {
       const state = element('span', { className: 'state' });
       const words = element('span', { className: 'words' });
       const label = element('div', { className: 'label' },
-        element('span', { className: 'name' }, name), state, words);
+        element('span', { className: 'name' }, `replay ${name}`), state, words);
       label.style.setProperty('--colour', replayColours[i]);
       this.root.append(label);
       return { label, state, words };

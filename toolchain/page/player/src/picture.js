@@ -46,7 +46,7 @@ export class Picture {
   makeBodies(size, capSize) {
     const { data, cut, stage } = this;
     const scale = {
-      length: 0.75 * size, radius: 0.3 * size,
+      length: 0.55 * size, radius: 0.25 * size,
       force: largestLength(data.replays, 'force'), torque: largestLength(data.replays, 'torque'),
     };
     this.still = new StillBody(bodyGeometries(data.still), data.still.closed, cut, capSize);
@@ -72,7 +72,8 @@ export class Picture {
   place(toEye) {
     this.controls?.dispose();
     this.camera.up.set(0, 0, 0).setComponent(this.up, 1);
-    const widening = Math.max(1, 1 / Math.max(this.camera.aspect, 0.3)) ** 0.85;
+    const room = this.replays.length > 1 ? 1.02 : 0.9; // small views have more beside their labels
+    const widening = room * Math.max(1, 1 / Math.max(this.camera.aspect, 0.3)) ** 0.85;
     this.camera.position.copy(this.target).addScaledVector(toEye, widening);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.target.copy(this.target);

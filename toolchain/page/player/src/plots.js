@@ -16,25 +16,26 @@ function plotTimes(data) {
   return times;
 }
 
-/** Returns a stroke that is red above zero. */
-function redAboveZero(colour) {
-  return (plot) => {
-    const { top, height } = plot.bbox;
-    const zero = Math.min(Math.max((plot.valToPos(0, 'y', true) - top) / height, 0), 1);
-    if (!Number.isFinite(zero)) return colour;
-    const gradient = plot.ctx.createLinearGradient(0, top, 0, top + height);
-    gradient.addColorStop(0, red);
-    gradient.addColorStop(zero, red);
-    gradient.addColorStop(zero, colour);
-    gradient.addColorStop(1, colour);
-    return gradient;
-  };
+/** Returns the numbers above zero with their neighbours, so that a single one is seen, too; null in place of others. */
+function aboveZero(numbers) {
+  return Array.from(numbers, (v, i) => (v > 0 || numbers[i - 1] > 0 || numbers[i + 1] > 0 ? v : null));
 }
 
 /** Returns a scale's range that shows depths near zero: the stored band below it is far larger. */
 function depthRange(plot, low, high) {
   const inside = Math.max(high, 0);
   return [Math.max(low * 1.05, -Math.max(1.5 * inside, -low / 5)), Math.max(1.15 * inside, -low / 15)];
+}
+
+function moveLine(plot, line, time) {
+  line.style.transform = `translateX(${plot.valToPos(time, 'x')}px)`;
+}
+
+/** Returns the powers of ten on a logarithmic axis. */
+function decades(plot, axis, low, high) {
+  const powers = [];
+  for (let e = Math.ceil(Math.log10(low) - 1e-9); 10 ** e <= high * 1.0001; ++e) powers.push(10 ** e);
+  return powers;
 }
 
 /** Plots of all quantities over time, with one curve for each replay and a line at the time that is shown. */
@@ -64,12 +65,19 @@ export class Plots {
     return { quantity, values, box };
   }
 
-  /** Returns the numbers of a quantity in its unit, one row for each replay. */
+  /** Returns the numbers of a quantity in its unit, one row for each replay; of the depth also those above zero. */
   series({ key, scale, logarithmic }) {
-    return this.data.replays.map(({ plots }) => {
+    const rows = this.data.replays.map(({ plots }) => {
       const numbers = Float64Array.from(plots[key].extremes ?? plots[key].values, (v) => v * scale);
       return logarithmic ? numbers.map((v) => Math.max(v, 0.1)) : numbers;
     });
+    return key === 'depth' ? [...rows, ...rows.map(aboveZero)] : rows;
+  }
+
+  /** Returns the colours of the rows of `series`. */
+  strokes({ key }) {
+    const colours = this.data.replays.map((_, i) => replayColours[i]);
+    return key === 'depth' ? [...colours, ...colours.map(() => red)] : colours;
   }
 
   options(quantity, width, height) {
@@ -78,16 +86,19 @@ export class Plots {
       grid: { stroke: () => this.theme.colour('--line'), width: 1 }, ticks: { show: false },
     };
     return {
-      width, height, padding: [6, 8, 0, 0], legend: { show: false },
+      width, height, padding: [6, 14, 0, 0], legend: { show: false },
       cursor: { drag: { x: false, y: false }, points: { show: false }, x: false, y: false },
       scales: { x: { time: false }, y: this.scale(quantity) },
       axes: [
         { ...axis, size: 22, space: 50, values: (_, ticks) => ticks.map((t) => `${+t.toFixed(6)} s`) },
-        { ...axis, size: 46, space: 22, values: (_, ticks) => ticks.map((v) => (v === null ? '' : `${+v.toPrecision(6)}`)) },
+        {
+          ...axis, size: 46, space: 22, ...(quantity.logarithmic ? { splits: decades } : {}),
+          values: (_, ticks) => ticks.map((v) => (v === null ? '' : `${+v.toPrecision(6)}`)),
+        },
       ],
-      series: [{}, ...this.data.replays.map((_, i) => ({
-        stroke: quantity.key === 'depth' ? redAboveZero(replayColours[i]) : replayColours[i],
-        width: 1.4, points: { show: false },
+      hooks: { draw: [() => this.placeLine(quantity)] },
+      series: [{}, ...this.strokes(quantity).map((stroke) => ({
+        stroke, width: 1.4, points: { show: false },
         paths: quantity.stepped ? uPlot.paths.stepped({ align: 1 }) : undefined,
       }))],
     };
@@ -133,7 +144,12 @@ export class Plots {
         value.textContent = number.toFixed(quantity.digits);
         value.classList.toggle('inside', quantity.key === 'depth' && number > 0);
       });
-      if (plot) line.style.transform = `translateX(${plot.valToPos(this.data.t[sample], 'x')}px)`;
+      if (line) moveLine(plot, line, this.data.t[sample]);
     }
+  }
+
+  placeLine(quantity) {
+    const { plot, line } = this.plots.find((entry) => entry.quantity === quantity);
+    if (line) moveLine(plot, line, this.data.t[this.clock.sample]);
   }
 }

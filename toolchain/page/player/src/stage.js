@@ -10,6 +10,19 @@ function roundLength(length) {
   return power * steps.filter((step) => step * power <= length * 1.0001).at(-1);
 }
 
+/** Returns the lowest place of all bodies in touch along an axis of W, not far below the still one [m]. */
+function lowest(data, up, size) {
+  const { low, high, centre } = data.moving;
+  const reach = Math.hypot(...low.map((_, k) => Math.max(high[k] - centre[k], centre[k] - low[k])));
+  let place = data.still.low[up];
+  for (const { pose, status } of data.replays) {
+    for (let i = 0; i < data.t.length; ++i) {
+      if (data.statuses[status[i]] !== 'free') place = Math.min(place, pose[up][i] + centre[up] - reach);
+    }
+  }
+  return Math.max(place, data.still.low[up] - size);
+}
+
 /** What all replays share: lights, a grid below the still body and the box of the workspace. */
 export class Stage {
   /** `size`: of the shown part of the scene [m]. */
@@ -48,7 +61,7 @@ export class Stage {
     for (let axis = 0; axis < 3; ++axis) {
       centre.setComponent(axis, Math.round(centre.getComponent(axis) / this.gridStep) * this.gridStep);
     }
-    this.grid.position.copy(centre.setComponent(up, this.data.still.low[up] - 0.002 * this.size));
+    this.grid.position.copy(centre.setComponent(up, lowest(this.data, up, this.size) - 0.002 * this.size));
     this.scene.add(this.grid);
   }
 

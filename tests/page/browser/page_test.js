@@ -1,0 +1,230 @@
+// usage: node page_test.js CHROMIUM FOLDER
+// Opens FOLDER/{one,two,long}.html from the disk and uses them as a viewer would.
+const assert = require('node:assert/strict');
+const path = require('node:path');
+const puppeteer = require('puppeteer-core');
+
+const [, , chromium, folder] = process.argv;
+const wide = { width: 1300, height: 860 };
+const phone = { width: 390, height: 844, isMobile: true, hasTouch: true, deviceScaleFactor: 2 };
+const softwareGl = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
+/** Opens a page. `complaints` collects what the console and the network say. */
+async function open(browser, name, { viewport = wide, scheme = 'light', hash = '' } = {}) {
+  const tab = await browser.newPage();
+  tab.complaints = [];
+  tab.on('console', (message) => ['error', 'warn'].includes(message.type()) && !message.text().includes('GPU stall') &&
+    tab.complaints.push(message.text()));
+  tab.on('pageerror', (error) => tab.complaints.push(error.message));
+  tab.on('request', (request) => /^(file|data|blob):/.test(request.url()) || tab.complaints.push(request.url()));
+  await tab.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
+  await tab.setViewport(viewport);
+  await tab.goto(`file://${path.resolve(folder, name)}${hash}`);
+  await tab.waitForFunction(() => window.godobjectPage);
+  await tab.waitForSelector('.plot canvas');
+  return tab;
+}
+
+const time = (tab) => tab.evaluate(() => window.godobjectPage.clock.time);
+const sample = (tab) => tab.evaluate(() => window.godobjectPage.clock.sample);
+
+/** Draws, and returns for a part of the picture how many pixels have each colour, and the mean place of `god`. */
+function pixels(tab, from = 0, to = 1) {
+  return tab.evaluate((begin, end) => {
+    const { picture } = window.godobjectPage;
+    picture.invalidate();
+    picture.draw();
+    const { width, height } = picture.canvas;
+    const copy = new OffscreenCanvas(width, height).getContext('2d');
+    copy.drawImage(picture.canvas, 0, 0);
+    const { data } = copy.getImageData(0, 0, width, height);
+    const counts = { blue: 0, violet: 0, grey: 0, red: 0, cap: 0, drawn: 0, row: 0 };
+    for (let y = 0; y < height; ++y) {
+      for (let x = Math.floor(begin * width); x < end * width; ++x) {
+        const [r, g, b, a] = data.subarray(4 * (y * width + x), 4 * (y * width + x) + 4);
+        if (a < 250) continue;
+        counts.drawn += 1;
+        if (b > r + 60 && b > g + 40 && r < g) { counts.blue += 1; counts.row += y; }
+        if (b > g + 60 && r > g + 30) counts.violet += 1;
+        if (r > g && g > b && r - b < 40 && r > 90) counts.grey += 1;
+        if (r > 200 && g < 60) counts.red += 1;
+        if (r > g + 25 && g > b + 15 && r > 150) counts.cap += 1;
+      }
+    }
+    counts.row /= counts.blue || 1;
+    return counts;
+  }, from, to);
+}
+
+const tests = {
+  async 'opens playing just before the first contact, and draws the bodies'(browser) {
+    const tab = await open(browser, 'one.html');
+    const first = await time(tab);
+    await tab.waitForFunction((t) => window.godobjectPage.clock.time > t + 0.01, {}, first);
+    assert.equal(await tab.evaluate(() => window.godobjectPage.clock.playing), true);
+    await tab.keyboard.press('Space');
+    await tab.evaluate(() => window.godobjectPage.clock.seekTime(0.9));
+    const { blue, grey, red, violet } = await pixels(tab);
+    assert.ok(blue > 2000 && grey > 2000 && red > 200 && violet === 0, JSON.stringify({ blue, grey, red, violet }));
+    return tab;
+  },
+
+  async 'a scrub moves the god object'(browser) {
+    const tab = await open(browser, 'one.html', { hash: '#paused&t=0' });
+    const before = await pixels(tab);
+    const scrub = await (await tab.$('.track input')).boundingBox();
+    await tab.mouse.click(scrub.x + scrub.width / 2, scrub.y + scrub.height / 2);
+    const at = await sample(tab);
+    assert.ok(at > 450 && at < 550, `sample ${at}`);
+    const z = await tab.evaluate(() => window.godobjectPage.picture.replays[0].godObject.position.z);
+    assert.ok(Math.abs(z - Math.max(0.03 - 0.06 * (at / 1000), 0)) < 1e-6, `z ${z}`);
+    const after = await pixels(tab);
+    assert.ok(after.row > before.row + 20, `${before.row} ${after.row}`);
+    assert.match(await tab.$eval('.time', (e) => e.textContent), /^0\.[45]/);
+    return tab;
+  },
+
+  async 'keys play, pause, step by one cycle and change the speed'(browser) {
+    const tab = await open(browser, 'one.html', { hash: '#paused&t=0.5' });
+    await tab.keyboard.press('ArrowRight');
+    assert.equal(await sample(tab), 501);
+    await tab.keyboard.press('ArrowLeft');
+    await tab.keyboard.press('ArrowLeft');
+    assert.equal(await sample(tab), 499);
+    await tab.keyboard.press('Space');
+    await tab.waitForFunction(() => window.godobjectPage.clock.sample > 505);
+    await tab.keyboard.press('Space');
+    const [slow, fast] = await tab.evaluate(() => {
+      const { clock } = window.godobjectPage;
+      const moved = (speed) => {
+        const select = document.querySelector('.transport select');
+        select.value = speed;
+        select.dispatchEvent(new Event('change'));
+        clock.seekSample(0);
+        clock.playing = true;
+        clock.advance(0.2);
+        clock.playing = false;
+        return clock.time;
+      };
+      return [moved('0.1'), moved('2')];
+    });
+    assert.ok(Math.abs(slow - 0.02) < 1e-9 && Math.abs(fast - 0.4) < 1e-9, `${slow} ${fast}`);
+    return tab;
+  },
+
+  async 'stops at the end, or begins again on request'(browser) {
+    const tab = await open(browser, 'one.html', { hash: '#t=0.99&speed=2' });
+    await tab.waitForFunction(() => !window.godobjectPage.clock.playing);
+    assert.equal(await sample(tab), 1000);
+    await tab.keyboard.press('l');
+    await tab.evaluate(() => window.godobjectPage.clock.seekTime(0.99));
+    await tab.keyboard.press('Space');
+    await tab.waitForFunction(() => window.godobjectPage.clock.time < 0.5 && window.godobjectPage.clock.playing);
+    return tab;
+  },
+
+  async 'a click in a plot seeks, and its line follows'(browser) {
+    const tab = await open(browser, 'one.html', { hash: '#paused&t=0' });
+    const plot = await (await tab.$('.plot .u-over')).boundingBox();
+    await tab.mouse.click(plot.x + 0.75 * plot.width, plot.y + plot.height / 2);
+    assert.ok(Math.abs((await time(tab)) - 0.75) < 0.02, `${await time(tab)}`);
+    const line = await (await tab.$('.plot .now')).boundingBox();
+    assert.ok(Math.abs(line.x - plot.x - 0.75 * plot.width) < 4);
+    assert.equal(await tab.$eval('.plot .value', (e) => e.textContent), '15.00');
+    return tab;
+  },
+
+  async 'shows two replays side by side with one camera'(browser) {
+    const tab = await open(browser, 'two.html', { hash: '#paused&t=0.9' });
+    const [left, right] = [await pixels(tab, 0, 0.5), await pixels(tab, 0.5, 1)];
+    assert.ok(left.blue > 500 && left.violet === 0, JSON.stringify(left));
+    assert.ok(right.violet > 500, JSON.stringify(right));
+    const box = await (await tab.$('.picture')).boundingBox();
+    await tab.mouse.move(box.x + 0.75 * box.width, box.y + box.height / 2);
+    await tab.mouse.down();
+    await tab.mouse.move(box.x + 0.75 * box.width, box.y + box.height / 2 + 90, { steps: 4 });
+    await tab.mouse.up();
+    const turned = await pixels(tab, 0, 0.5);
+    assert.ok(Math.abs(turned.row - left.row) > 1 || Math.abs(turned.blue - left.blue) > 100, 'the left view turns, too');
+    const names = await tab.$$eval('.label .name', (labels) => labels.map((label) => label.textContent));
+    assert.deepEqual(names, ['replay contact', 'replay paper']);
+    assert.equal(await tab.$$eval('.plot .value.inside', (values) => values.length), 1); // the depth of paper
+    return tab;
+  },
+
+  async 'cuts the still body open'(browser) {
+    const tab = await open(browser, 'one.html', { hash: '#paused&t=0.1' });
+    const before = await pixels(tab);
+    await tab.keyboard.press('c');
+    const after = await pixels(tab);
+    assert.ok(after.cap > before.cap + 2000, `${before.cap} ${after.cap}`);
+    return tab;
+  },
+
+  async 'follows the system in light and dark until a button is pressed'(browser) {
+    const ground = (tab) => tab.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    const light = await open(browser, 'one.html', { scheme: 'light' });
+    const dark = await open(browser, 'one.html', { scheme: 'dark' });
+    assert.notEqual(await ground(light), await ground(dark));
+    await dark.keyboard.press('d');
+    assert.equal(await ground(light), await ground(dark));
+    assert.deepEqual(light.complaints, []);
+    await light.close();
+    return dark;
+  },
+
+  async 'fits a phone'(browser) {
+    for (const name of ['one.html', 'two.html']) {
+      const tab = await open(browser, name, { viewport: phone, hash: '#paused&t=0.9&cut=y' });
+      assert.ok((await tab.evaluate(() => document.documentElement.scrollWidth)) <= 390, name);
+      const right = await tab.$$eval('button, select, input, .value', (all) =>
+        Math.max(...all.map((one) => one.getBoundingClientRect().right)));
+      assert.ok(right <= 390, `${name}: ${right}`);
+      assert.deepEqual(tab.complaints, []);
+      await tab.close();
+    }
+  },
+
+  async 'shows the extremes of a long replay'(browser) {
+    const tab = await open(browser, 'long.html', { hash: '#paused&t=30' });
+    const { bucket, samples, largest } = await tab.evaluate(() => {
+      const { data } = window.godobjectPage;
+      return { bucket: data.bucket, samples: data.t.length, largest: Math.max(...data.replays[0].plots.force.extremes) };
+    });
+    assert.equal(bucket, 3);
+    assert.equal(samples, 16667);
+    assert.ok(largest > 55, `${largest}`);
+    return tab;
+  },
+};
+
+async function withoutWebGl(browser) {
+  const tab = await open(browser, 'one.html', { hash: '#paused' });
+  assert.match(await tab.$eval('.message', (e) => e.textContent), /needs WebGL/);
+  const plot = await (await tab.$('.plot .u-over')).boundingBox();
+  await tab.mouse.click(plot.x + 0.75 * plot.width, plot.y + plot.height / 2);
+  assert.ok(Math.abs((await time(tab)) - 0.75) < 0.02);
+  return tab;
+}
+
+async function runAll(options, named) {
+  const browser = await puppeteer.launch({ executablePath: chromium, args: ['--no-sandbox', ...options] });
+  try {
+    for (const [name, test] of Object.entries(named)) {
+      const tab = await test(browser);
+      if (tab) assert.deepEqual(tab.complaints, [], name);
+      await tab?.close();
+      console.log(`passed: ${name}`);
+    }
+  } finally {
+    await browser.close();
+  }
+}
+
+(async () => {
+  await runAll(softwareGl, tests);
+  await runAll(['--disable-3d-apis'], { 'without WebGL it says so, and the plots work': withoutWebGl });
+})().catch((error) => {
+  console.error(error);
+  process.exit(1);
+});
