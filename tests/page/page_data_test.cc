@@ -142,6 +142,19 @@ TEST(PageData, TellsOpenBodiesFromClosedOnes) {
   EXPECT_FALSE(PageReader(page_data(scene)).header().at("still").at("closed").get<bool>());
 }
 
+TEST(PageData, PutsTheCameraWhereItShowsTheTouchingBodies) {
+  const PageReader reader(page_data(sliding_scene(1000)));
+  const auto& camera = reader.header().at("camera");
+  const auto vector = [](const nlohmann::json& v) { return Vector3(v.at(0), v.at(1), v.at(2)); };
+  const Vector3 target = vector(camera.at("target"));
+  const Vector3 eye = vector(camera.at("eye"));
+  EXPECT_LT((target - Vector3(0.05, 0, 0.03)).norm(), 0.03);  // the middle of the way of 0.1 m
+  const double radius = (eye - target).norm() * std::sin(camera.at("half_view").get<double>());
+  EXPECT_GT(radius, 0.05);  // the way
+  EXPECT_LT(radius, 0.15);  // not the plate
+  EXPECT_GT(eye.z(), target.z());
+}
+
 TEST(PageData, RefusesReplaysOfDifferentMotions) {
   PageScene scene = sliding_scene(5);
   scene.replays.push_back({"paper", sliding_log(4)});

@@ -208,24 +208,34 @@ class ReplayColumns {
   std::vector<std::string> statuses_;  ///< as they first appear
 };
 
-/// Returns placements for the camera: first the one with the largest force, then others in contact, or any.
-std::vector<viewer::Placement> shown_placements(const std::vector<NamedReplay>& replays) {
-  constexpr std::size_t kMost = 16;
-  const auto& log = replays.front().log;
-  const std::vector<Pose> device = device_poses(log);
-  std::vector<std::size_t> cycles;
-  std::size_t strongest = 0;
+/// Returns the cycles of a log in which something holds the god object; all if there is none.
+std::vector<std::size_t> held_cycles(const ReplayLog& log) {
+  std::vector<std::size_t> held;
+  std::vector<std::size_t> all;
   for (std::size_t i = 0; i < log.size(); ++i) {
-    if (log[i].status != "free") cycles.push_back(i);
-    if (log[i].wrench.force.norm() > log[strongest].wrench.force.norm()) strongest = i;
+    all.push_back(i);
+    if (log[i].status != "free") held.push_back(i);
   }
-  if (cycles.empty()) {
-    for (std::size_t i = 0; i < log.size(); ++i) cycles.push_back(i);
-  }
-  std::vector<viewer::Placement> placements{{device[strongest], log[strongest].H_WS}};
-  for (std::size_t k = 0; k < kMost; ++k) {
-    const std::size_t i = cycles[k * cycles.size() / kMost];
-    placements.push_back({device[i], log[i].H_WS});
+  return held.empty() ? all : held;
+}
+
+/// Returns placements for the camera: first that of the largest force of the first replay, then some of each replay.
+std::vector<viewer::Placement> shown_placements(const std::vector<NamedReplay>& replays) {
+  constexpr std::size_t kOfEach = 12;
+  const ReplayLog& first = replays.front().log;
+  const std::vector<Pose> device = device_poses(first);
+  const auto weaker = [](const ReplayRow& a, const ReplayRow& b) {
+    return a.wrench.force.squaredNorm() < b.wrench.force.squaredNorm();
+  };
+  const auto strongest = std::max_element(first.begin(), first.end(), weaker);
+  std::vector<viewer::Placement> placements{
+      {device[static_cast<std::size_t>(strongest - first.begin())], strongest->H_WS}};
+  for (const NamedReplay& replay : replays) {
+    const std::vector<std::size_t> cycles = held_cycles(replay.log);
+    for (std::size_t k = 0; k < kOfEach; ++k) {
+      const std::size_t i = cycles[k * cycles.size() / kOfEach];
+      placements.push_back({device[i], replay.log[i].H_WS});
+    }
   }
   return placements;
 }

@@ -78,7 +78,7 @@ function ghostBody(geometries) {
   const group = new Group();
   const colour = new Color(ghostColour);
   const hidden = new MeshBasicMaterial({
-    color: colour, transparent: true, opacity: 0.22, depthFunc: GreaterDepth, depthWrite: false, stencilWrite: true,
+    color: colour, transparent: true, opacity: 0.16, depthFunc: GreaterDepth, depthWrite: false, stencilWrite: true,
     stencilRef: 255, stencilFunc: NotEqualStencilFunc, stencilZPass: ReplaceStencilOp,
   });
   const hiddenMesh = meshOf(geometries.surface, { material: hidden, renderOrder: order.hiddenGhost });

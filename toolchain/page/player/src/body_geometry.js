@@ -64,17 +64,32 @@ function surface(positions, corners, vectors) {
   return geometry;
 }
 
-/** Returns the sharp edges and the borders of a body as lines. */
-function sharpEdges(positions, corners, vectors) {
+/** Tells which triangles are so thin that rounded vertices leave their normals open. By the first index. */
+function thinTriangles(positions, corners, vectors, step) {
+  const length = (a, b) => Math.hypot(...[0, 1, 2].map((k) => positions[3 * a + k] - positions[3 * b + k]));
+  const thin = new Set();
+  for (let f = 0; f < corners.length; f += 3) {
+    const [a, b, c] = corners.subarray(f, f + 3);
+    const longest = Math.max(length(a, b), length(b, c), length(c, a));
+    if (Math.hypot(vectors[f], vectors[f + 1], vectors[f + 2]) < 4 * step * longest) thin.add(f);
+  }
+  return thin;
+}
+
+/** Returns the sharp edges and the borders of a body as lines. `step`: to which vertices are rounded [m] */
+function sharpEdges(positions, corners, vectors, step) {
   const count = positions.length / 3;
+  const thin = thinTriangles(positions, corners, vectors, step);
   const first = new Map(); // of each edge: its first triangle, until the second one is found round
   for (let i = 0; i < corners.length; ++i) {
+    const own = i - (i % 3);
     const a = corners[i];
     const b = corners[i % 3 === 2 ? i - 2 : i + 1];
     const edge = a < b ? a * count + b : b * count + a;
     const other = first.get(edge);
-    if (other !== undefined && isRound(vectors, other, i - (i % 3))) first.delete(edge);
-    else first.set(edge, i - (i % 3));
+    const round = other !== undefined && (thin.has(own) || thin.has(other) || isRound(vectors, other, own));
+    if (round) first.delete(edge);
+    else first.set(edge, own);
   }
   const points = [];
   for (const edge of first.keys()) {
@@ -91,8 +106,9 @@ function sharpEdges(positions, corners, vectors) {
 export function bodyGeometries(body) {
   const positions = positionsOf(body);
   const vectors = faceVectors(positions, body.triangles);
+  const step = Math.max(...body.high.map((high, axis) => high - body.low[axis])) / 65535;
   return {
     surface: surface(positions, body.triangles, vectors),
-    edges: sharpEdges(positions, body.triangles, vectors),
+    edges: sharpEdges(positions, body.triangles, vectors, step),
   };
 }

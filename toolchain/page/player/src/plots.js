@@ -1,5 +1,5 @@
 import uPlot from 'uplot';
-import { element } from './elements.js';
+import { element, fixed } from './elements.js';
 import { replayColours } from './theme.js';
 
 const red = '#dc2626';
@@ -141,7 +141,7 @@ export class Plots {
     for (const { quantity, values, plot, line } of this.plots) {
       values.forEach((value, i) => {
         const number = this.data.replays[i].plots[quantity.key].values[sample] * quantity.scale;
-        value.textContent = number.toFixed(quantity.digits);
+        value.textContent = fixed(number, quantity.digits);
         value.classList.toggle('inside', quantity.key === 'depth' && number > 0);
       });
       if (line) moveLine(plot, line, this.data.t[sample]);

@@ -21,7 +21,7 @@ export function quantities(largest) {
       key: 'time', name: 'Computing time', unit: 'µs', scale: 1e6, digits: 1, logarithmic: true,
       hint: 'Time of all steps of a cycle on the machine that made the replay.',
     },
-  ];
+  ].filter(({ key }) => key !== 'time' || largest('time') > 0); // a run in virtual time has none
 }
 
 const words = {

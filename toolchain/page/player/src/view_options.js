@@ -1,4 +1,4 @@
-import { element } from './elements.js';
+import { element, fixed } from './elements.js';
 import { iconButton } from './transport.js';
 
 const axes = ['x', 'y', 'z'];
@@ -65,7 +65,7 @@ export class ViewOptions {
   applyCut() {
     const [low, high] = this.picture.extent(this.axis);
     const position = low + (this.slider.valueAsNumber / 1000) * (high - low);
-    this.place.textContent = `${(1e3 * position).toFixed(1)} mm`;
+    this.place.textContent = `${fixed(1e3 * position, 1)} mm`;
     this.details.hidden = !this.cut.input.checked;
     this.picture.setCut({
       on: this.cut.input.checked, both: this.both.input.checked, axis: this.axis, position,
