@@ -1,5 +1,5 @@
 import {
-  Color, DoubleSide, GreaterDepth, Group, LessEqualDepth, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
+  Color, DoubleSide, EqualStencilFunc, GreaterDepth, Group, LessEqualDepth, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
   MeshStandardMaterial, NotEqualStencilFunc, ReplaceStencilOp, Vector3,
 } from 'three';
 import { ForceArrow, TorqueArrow } from './arrows.js';
@@ -8,7 +8,8 @@ import { replayColours } from './theme.js';
 const stillColour = 0xc9c3b6;
 const ghostColour = 0xf59e0b;
 // The order in which transparent things are drawn. The god object counts as one, to be drawn over the hidden ghost.
-const order = { hiddenGhost: 1, godObject: 2, ghostDepth: 3, ghost: 4 };
+const order = { hiddenGhost: 1, cutFace: 1.5, godObject: 2, ghostDepth: 3, ghost: 4 };
+const godObjectMark = 128; // in the stencil, where the god object is drawn
 
 function solid(colour, renderOrder) {
   return { material: new MeshStandardMaterial({
@@ -84,13 +85,16 @@ function ghostBody(geometries) {
   const hiddenMesh = meshOf(geometries.surface, { material: hidden, renderOrder: order.hiddenGhost });
   hiddenMesh.onAfterRender = (renderer) => renderer.clearStencil();
   const depth = new MeshBasicMaterial({ colorWrite: false, transparent: true });
-  const shown = clearInside(new MeshStandardMaterial({
-    color: colour, transparent: true, opacity: 0.85, roughness: 0.7, depthFunc: LessEqualDepth, depthWrite: false,
-  }));
+  // Over the god object the ghost is fainter, because the two surfaces cross each other there.
+  const shown = [[NotEqualStencilFunc, 0.85], [EqualStencilFunc, 0.4]].map(([stencilFunc, opacity]) =>
+    clearInside(new MeshStandardMaterial({
+      color: colour, transparent: true, opacity, roughness: 0.7, depthFunc: LessEqualDepth, depthWrite: false,
+      stencilWrite: true, stencilRef: godObjectMark, stencilFunc,
+    })));
   group.add(
     hiddenMesh,
     meshOf(geometries.surface, { material: depth, renderOrder: order.ghostDepth }),
-    meshOf(geometries.surface, { material: shown, renderOrder: order.ghost }),
+    ...shown.map((material) => meshOf(geometries.surface, { material, renderOrder: order.ghost })),
     lines(geometries.edges, 0xd97706, 0.9, order.ghost),
   );
   return group;
@@ -109,10 +113,13 @@ export class ReplayBodies extends Group {
     const colour = replayColours[index];
     this.godObject = new Group();
     this.surface = meshOf(geometries.surface, solid(colour, order.godObject));
+    Object.assign(this.surface.material, {
+      stencilWrite: true, stencilRef: godObjectMark, stencilZPass: ReplaceStencilOp,
+    });
     this.edges = lines(geometries.edges, new Color(colour).multiplyScalar(0.35), 0.6, order.godObject + 0.2);
     this.godObject.add(this.surface, this.edges);
     if (data.moving.closed) {
-      this.closing = cut.closing(geometries.surface, new Color(colour).multiplyScalar(0.6), size, order.godObject + 0.3);
+      this.closing = cut.closing(geometries.surface, new Color(colour).multiplyScalar(0.6), size, order.cutFace);
       for (const object of [...this.closing.counted.children, this.closing.cap]) object.material.transparent = true;
       this.godObject.add(this.closing.counted);
       this.add(this.closing.cap);
