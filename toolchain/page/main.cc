@@ -21,6 +21,8 @@
 
 namespace {
 
+using godobject::command::ExitCode;
+using godobject::command::Failure;
 using godobject::page::PageScene;
 namespace fs = std::filesystem;
 
@@ -80,6 +82,10 @@ PageScene read_scene(const Options& options) {
 }
 
 void write_page(const Options& options) {
+  if (options.replays.size() > kMostReplays) {
+    throw Failure(ExitCode::kUsage, fmt::format("{} replays are given, a page shows at most {}; make several pages",
+                                                options.replays.size(), kMostReplays));
+  }
   godobject::files::output_target(options.output);  // refused before the work
   const fs::path player = player_file(options);
   godobject::files::require_input(player, "run toolchain/page/player/build, or name a player by --player");
@@ -109,8 +115,7 @@ int main(int argc, char** argv) {
   app.add_option("REPLAY.csv", options.replays,
                  "one to three outputs of godobject-replay for one path, or a telemetry.csv of godobject-controller")
       ->required()
-      ->type_name("")
-      ->expected(1, kMostReplays);
+      ->type_name("");
   app.add_option("-o,--output", options.output, "page to write")->required()->type_name("PAGE.html");
   app.add_option("--title", options.title, "default: the names of the scene and the replays")->type_name("WORDS");
   app.add_option("--up", options.up, "axis of W that points up: x, y or z; default: z")

@@ -57,15 +57,19 @@ function pixels(tab, from = 0, to = 1) {
 }
 
 const tests = {
-  async 'opens playing just before the first contact, and draws the bodies'(browser) {
-    const tab = await open(browser, 'one.html');
+  async 'opens playing just before the first contact'(browser) {
+    const tab = await open(browser, 'long.html');
     const first = await time(tab);
+    assert.ok(first > 24.8 && first < 40, `${first}`);
     await tab.waitForFunction((t) => window.godobjectPage.clock.time > t + 0.01, {}, first);
     assert.equal(await tab.evaluate(() => window.godobjectPage.clock.playing), true);
-    await tab.keyboard.press('Space');
-    await tab.evaluate(() => window.godobjectPage.clock.seekTime(0.9));
+    return tab;
+  },
+
+  async 'draws the bodies and the force'(browser) {
+    const tab = await open(browser, 'one.html', { hash: '#paused&t=0.9' });
     const { blue, grey, red, violet } = await pixels(tab);
-    assert.ok(blue > 2000 && grey > 2000 && red > 200 && violet === 0, JSON.stringify({ blue, grey, red, violet }));
+    assert.ok(blue > 2000 && grey > 2000 && red > 200 && violet < 100, JSON.stringify({ blue, grey, red, violet }));
     return tab;
   },
 
@@ -137,7 +141,7 @@ const tests = {
   async 'shows two replays side by side with one camera'(browser) {
     const tab = await open(browser, 'two.html', { hash: '#paused&t=0.9' });
     const [left, right] = [await pixels(tab, 0, 0.5), await pixels(tab, 0.5, 1)];
-    assert.ok(left.blue > 500 && left.violet === 0, JSON.stringify(left));
+    assert.ok(left.blue > 500 && left.violet < 100, JSON.stringify(left));
     assert.ok(right.violet > 500, JSON.stringify(right));
     const box = await (await tab.$('.picture')).boundingBox();
     await tab.mouse.move(box.x + 0.75 * box.width, box.y + box.height / 2);
