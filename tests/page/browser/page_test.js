@@ -165,6 +165,20 @@ const tests = {
     return tab;
   },
 
+  async 'follows the god object, and resets the view'(browser) {
+    const tab = await open(browser, 'one.html', { hash: '#paused&t=0' });
+    const camera = () => tab.evaluate(() => window.godobjectPage.picture.camera.position.toArray());
+    const before = await camera();
+    await tab.click('.options label');
+    await tab.evaluate(() => window.godobjectPage.clock.seekTime(0.5));
+    const moved = (await camera()).map((value, axis) => value - before[axis]);
+    assert.ok(Math.abs(moved[0] - 0.03) < 1e-6 && Math.abs(moved[2] + 0.03) < 1e-6, `${moved}`);
+    await tab.keyboard.press('r');
+    const after = await camera();
+    assert.ok(after.every((value, axis) => Math.abs(value - before[axis]) < 1e-9), `${after}`);
+    return tab;
+  },
+
   async 'follows the system in light and dark until a button is pressed'(browser) {
     const ground = (tab) => tab.evaluate(() => getComputedStyle(document.body).backgroundColor);
     const light = await open(browser, 'one.html', { scheme: 'light' });

@@ -76,6 +76,7 @@ async function start() {
   const frame = element('section', { className: 'frame' }, view);
   root.append(frame);
   root.classList.toggle('several', data.replays.length > 1);
+  root.style.setProperty('--count', data.replays.length);
   const picture = makePicture(data, view);
   const labels = new Labels(data);
   view.append(labels.root);
@@ -103,7 +104,7 @@ async function start() {
   applyAddress(clock, options, picture);
   clock.changed();
   connectKeys({ clock, transport, options, theme, picture });
-  window.godobjectPage = { data, clock, picture, theme }; // for tests and the curious
+  window.godobjectPage = { data, clock, picture, theme }; // for tests
   run(clock, picture);
 }
 

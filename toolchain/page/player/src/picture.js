@@ -83,7 +83,6 @@ export class Picture {
     this.controls.addEventListener('change', () => this.invalidate());
     this.controls.update();
     this.stage.setGround(this.up, this.target, this.dark);
-    this.followed = undefined;
     this.invalidate();
   }
 
@@ -104,7 +103,6 @@ export class Picture {
 
   setFollow(on) {
     this.follows = on;
-    this.followed = undefined;
   }
 
   /** Returns the extent of everything along an axis of W [m]. */
@@ -119,13 +117,13 @@ export class Picture {
   show(sample) {
     for (const replay of this.replays) replay.show(sample);
     const place = this.replays[0].place();
-    if (this.follows && this.followed) {
-      const moved = place.clone().sub(this.followed);
+    if (this.follows) {
+      const moved = place.clone().sub(this.shownPlace);
       this.camera.position.add(moved);
       this.controls.target.add(moved);
       this.controls.update();
     }
-    this.followed = place;
+    this.shownPlace = place;
     this.invalidate();
   }
 

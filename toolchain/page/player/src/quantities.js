@@ -9,8 +9,8 @@ export function quantities(largest) {
     { key: 'force', name: 'Force', unit: 'N', scale: 1, digits: 2 },
     { key: 'torque', name: 'Torque', unit: small ? 'mNm' : 'Nm', scale: small ? 1e3 : 1, digits: small ? 2 : 3 },
     {
-      key: 'depth', name: 'Depth of the god object', unit: 'mm', scale: lengthScale, digits: 3,
-      hint: 'Deepest sample point. Positive (red): inside the grey body. Negative: distance of the nearest one.',
+      key: 'depth', name: 'Depth inside', unit: 'mm', scale: lengthScale, digits: 3,
+      hint: 'Of the god object\'s deepest sample point. Red: inside the grey body. Negative: distance of the nearest one.',
     },
     {
       key: 'stretch', name: 'Hand to god object', unit: 'mm', scale: lengthScale, digits: 2,
