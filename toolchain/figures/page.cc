@@ -29,7 +29,7 @@ body { font: 16px/1.5 sans-serif; color: var(--ink); background: var(--paper); m
   padding: 0 1em }
 a { color: var(--link) }
 .lead { font-size: 20px; max-width: 45em }
-.moving { width: 100%; height: min(80vh, 720px); border: 1px solid var(--line); border-radius: 6px }
+.moving { width: 100%; height: min(95vh, 1000px); border: 1px solid var(--line); border-radius: 6px }
 table { border-collapse: collapse; font-size: 13px }
 th, td { padding: 2px 8px; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap }
 th:nth-child(-n+2), td:nth-child(-n+2) { text-align: left }
@@ -161,12 +161,16 @@ bool moves(const ScenePlan& plan, const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / plan.name / kMovingPicture);
 }
 
+/// Returns a link to the moving picture of a scene or a run; empty if its folder has none.
+std::string moving_link(const ScenePlan& plan, const std::filesystem::path& folder) {
+  if (!moves(plan, folder)) return "";
+  return fmt::format("<a href=\"{}/{}\">Moving picture</a>. ", files::html_text(plan.name), kMovingPicture);
+}
+
 std::string replays_html(const ScenePlan& plan, const std::vector<Entry>& entries,
                          const std::filesystem::path& folder) {
   const std::string scene = files::html_text(plan.name);
-  std::string text = "<p>";
-  if (moves(plan, folder)) text += fmt::format("<a href=\"{}/{}\">Moving picture</a>. ", scene, kMovingPicture);
-  text += "Replays:";
+  std::string text = "<p>" + moving_link(plan, folder) + "Replays:";
   for (const Entry& entry : entries) {
     if (entry.scene == plan.name)
       text += fmt::format(" <a href=\"{0}/{1}.csv\">{1}</a>", scene, files::html_text(entry.solver));
@@ -209,8 +213,9 @@ std::string arm_html(const PageContent& content, const std::filesystem::path& fo
     const ScenePlan& plan = content.plan.runs[i].scene;
     const ArmFigure& figure = content.arm_figures[i];
     text += scene_html(plan, figure.facts, {{"telemetry", rendered(figure.log.cycles)}}, folder);
+    text += "<p>" + moving_link(plan, folder);
     text += fmt::format(
-        "<p>Logs of the run: <a href=\"{0}/telemetry.csv\">telemetry</a>, <a href=\"{0}/hand.csv\">work of the "
+        "Logs of the run: <a href=\"{0}/telemetry.csv\">telemetry</a>, <a href=\"{0}/hand.csv\">work of the "
         "hand</a></p>\n",
         files::html_text(plan.name));
   }
@@ -221,7 +226,7 @@ std::string arm_html(const PageContent& content, const std::filesystem::path& fo
 std::string moving_html(const ScenePlan& plan, const std::filesystem::path& folder) {
   if (!moves(plan, folder)) return "";
   return fmt::format(
-      "<iframe class=\"moving\" src=\"{0}/{1}\" title=\"{2}\"></iframe>\n<p>{2}, with each solver. <a "
+      "<iframe class=\"moving\" src=\"{0}/{1}\" title=\"{2}\"></iframe>\n<p>{2}. <a "
       "href=\"{0}/{1}\">Open it alone</a>; the file works without this page.</p>\n",
       files::html_text(plan.name), kMovingPicture, files::html_text(plan.title));
 }
