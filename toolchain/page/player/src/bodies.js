@@ -1,6 +1,6 @@
 import {
-  Color, DoubleSide, EqualStencilFunc, GreaterDepth, Group, LessEqualDepth, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
-  MeshStandardMaterial, NotEqualStencilFunc, ReplaceStencilOp, Vector3,
+  Color, DoubleSide, EqualStencilFunc, GreaterDepth, Group, LessEqualDepth, LineBasicMaterial, LineSegments, Mesh,
+  MeshBasicMaterial, MeshStandardMaterial, NotEqualStencilFunc, ReplaceStencilOp, Vector3,
 } from 'three';
 import { ForceArrow, TorqueArrow } from './arrows.js';
 import { replayColours } from './theme.js';

@@ -21,7 +21,8 @@ export class Labels {
   /** Puts each label into the corner of its view. */
   place(views) {
     views.forEach(({ left, top, width }, i) => {
-      Object.assign(this.items[i].label.style, { left: `${left + 8}px`, top: `${top + 8}px`, maxWidth: `${width - 16}px` });
+      const { style } = this.items[i].label;
+      Object.assign(style, { left: `${left + 8}px`, top: `${top + 8}px`, maxWidth: `${width - 16}px` });
     });
   }
 

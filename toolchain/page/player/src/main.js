@@ -1,5 +1,6 @@
 import uPlotStyle from 'uplot/dist/uPlot.min.css';
 import style from './style.css';
+import { applyAddress } from './address.js';
 import { Clock } from './clock.js';
 import { element } from './elements.js';
 import { connectKeys } from './keyboard.js';
@@ -22,54 +23,52 @@ function hasWebGl() {
 
 /** Returns the picture, or undefined with a message on the page. */
 function makePicture(data, view) {
-  try {
-    if (!hasWebGl()) throw new Error('no WebGL 2');
-    const canvas = element('canvas', { className: 'picture', 'aria-label': 'The bodies in 3D' });
-    view.append(canvas);
-    return new Picture(data, canvas);
-  } catch (error) {
-    view.replaceChildren(element('p', { className: 'message' },
-      'The 3D picture needs WebGL, which this browser does not offer. Allow hardware acceleration, or open the page in ' +
-      'another browser. The plots work without it.'));
+  if (!hasWebGl()) {
+    view.append(element('p', { className: 'message' },
+      'The 3D picture needs WebGL 2, which this browser does not offer. Allow hardware acceleration, or open the ' +
+      'page in another browser. The plots work without it.'));
     return undefined;
   }
+  const canvas = element('canvas', { className: 'picture', 'aria-label': 'The bodies in 3D' });
+  view.append(canvas);
+  return new Picture(data, canvas);
 }
 
+/** Returns the first sample in which something holds a god object; 0 if there is none. */
 function firstContact(data) {
   const free = data.statuses.indexOf('free');
   const first = data.replays.map(({ status }) => status.findIndex((s) => s !== free));
   return Math.min(...first.map((i) => (i < 0 ? 0 : i)));
 }
 
-/** Applies `#t=1.9&cut=y&both&paused` of the address. */
-function applyAddress(clock, options, picture) {
-  const wanted = new URLSearchParams(location.hash.slice(1));
-  if (wanted.has('t')) clock.seekTime(+wanted.get('t'));
-  const axis = ['x', 'y', 'z'].indexOf(wanted.get('cut'));
-  if (picture && axis >= 0) {
-    options.cut.input.checked = true;
-    options.both.input.checked = wanted.has('both');
-    options.setAxis(axis);
-  }
-  if (wanted.has('speed')) clock.setSpeed(+wanted.get('speed'));
-  clock.playing = !wanted.has('paused');
+/** Returns the largest value of a plotted quantity in all replays. */
+function largestValue(data, key) {
+  return Math.max(...data.replays.map(({ plots }) => plots[key].values.reduce((a, b) => Math.max(a, b), 0)));
 }
 
-function run(clock, picture) {
+/** Fits the picture and its labels to their element, now and whenever its size changes. */
+function keepFitted(picture, labels, view) {
+  const fit = () => {
+    picture.resize();
+    labels.place(picture.views());
+  };
+  new ResizeObserver(fit).observe(view);
+  fit();
+}
+
+/** Calls `advance` with the time since the last picture [s], for each picture of the screen. */
+function eachFrame(advance) {
   let before;
   const frame = (now) => {
-    clock.advance(Math.min((now - (before ?? now)) / 1000, 0.25));
+    advance(Math.min((now - (before ?? now)) / 1000, 0.25));
     before = now;
-    picture?.draw();
     requestAnimationFrame(frame);
   };
   requestAnimationFrame(frame);
 }
 
-async function start() {
-  document.head.append(element('style', {}, uPlotStyle, style));
-  const root = document.getElementById('player');
-  const data = await readPageData(document.getElementById('replay-data'));
+/** Makes the elements of the page. Returns its parts; `picture` is undefined without WebGL. */
+function makeParts(data, root) {
   const theme = new Theme();
   const clock = new Clock(data.t);
   const view = element('div', { className: 'view' });
@@ -78,34 +77,40 @@ async function start() {
   root.classList.toggle('several', data.replays.length > 1);
   root.style.setProperty('--count', data.replays.length);
   const picture = makePicture(data, view);
+  picture?.show(firstContact(data));
   const labels = new Labels(data);
+  labels.root.classList.toggle('alone', !picture);
   view.append(labels.root);
   if (picture) view.append(pictureKey(data, picture.stage.gridStep));
-  picture?.show(firstContact(data));
   const transport = new Transport(clock, new StatusBand(data, theme).root);
   const options = new ViewOptions(picture, theme, root);
+  const plots = new Plots(data, quantities((key) => largestValue(data, key)), clock, theme);
   frame.append(transport.root, options.root);
-  const largest = (key) => Math.max(...data.replays.map(({ plots }) => plots[key].values.reduce((a, b) => Math.max(a, b), 0)));
-  const plots = new Plots(data, quantities(largest), clock, theme);
   root.append(plots.root);
+  return { theme, clock, view, picture, labels, transport, options, plots };
+}
+
+async function start() {
+  document.head.append(element('style', {}, uPlotStyle, style));
+  const data = await readPageData(document.getElementById('replay-data'));
+  const parts = makeParts(data, document.getElementById('player'));
+  const { theme, clock, view, picture, labels, options, plots } = parts;
   for (const shown of [picture, labels, plots]) if (shown) clock.onChange((sample) => shown.show(sample));
   if (picture) {
-    const refit = () => {
-      picture.resize();
-      labels.place(picture.views());
-    };
-    new ResizeObserver(refit).observe(view);
+    keepFitted(picture, labels, view);
     theme.onChange(() => picture.setDark(theme.dark));
     picture.setDark(theme.dark);
-    refit();
   }
-  clock.speed = speedFor(data.t[clock.last] - data.t[0]);
+  clock.setSpeed(speedFor(data.t[clock.last] - data.t[0]));
   clock.seekTime(data.t[firstContact(data)] - lead);
   applyAddress(clock, options, picture);
   clock.changed();
-  connectKeys({ clock, transport, options, theme, picture });
-  window.godobjectPage = { data, clock, picture, theme }; // for tests
-  run(clock, picture);
+  connectKeys(parts);
+  window.godobjectPage = { data, clock, picture }; // for tests
+  eachFrame((seconds) => {
+    clock.advance(seconds);
+    picture?.draw();
+  });
 }
 
 start().catch((error) => {

@@ -2,7 +2,7 @@
 
 const lengthScale = 1e3;
 
-/** Returns the quantities of a page. `largest(key)`: over all replays, in SI units. A value times `scale` has `unit`. */
+/** Returns the plotted quantities. `largest(key)`: of all replays, in SI units. A value has its `unit` after `scale`. */
 export function quantities(largest) {
   const small = largest('torque') < 0.1;
   return [
@@ -10,7 +10,7 @@ export function quantities(largest) {
     { key: 'torque', name: 'Torque', unit: small ? 'mNm' : 'Nm', scale: small ? 1e3 : 1, digits: small ? 2 : 3 },
     {
       key: 'depth', name: 'Depth inside', unit: 'mm', scale: lengthScale, digits: 3,
-      hint: 'Of the god object\'s deepest sample point. Red: inside the grey body. Negative: distance of the nearest one.',
+      hint: 'Of the deepest sample point of the god object. Red: inside. Negative: the nearest point is so far away.',
     },
     {
       key: 'stretch', name: 'Hand to god object', unit: 'mm', scale: lengthScale, digits: 2,

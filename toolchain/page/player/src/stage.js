@@ -71,7 +71,8 @@ export class Stage {
     const above = new Vector3().setComponent(up, 1);
     const toEye = camera.position.clone().sub(target);
     const distance = toEye.length();
-    this.key.position.copy(camera.position).addScaledVector(right, -0.5 * distance).addScaledVector(above, 0.9 * distance);
+    this.key.position.copy(camera.position).addScaledVector(right, -0.5 * distance);
+    this.key.position.addScaledVector(above, 0.9 * distance);
     this.key.target.position.copy(target);
     this.fill.position.copy(target).addScaledVector(right, distance).addScaledVector(toEye, 0.2);
     this.fill.target.position.copy(target);

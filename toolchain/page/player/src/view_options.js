@@ -42,7 +42,8 @@ export class ViewOptions {
       oninput: () => this.applyCut() });
     this.place = element('output', { className: 'place' });
     this.details = element('span', { className: 'details' }, this.axisChoice, this.slider, this.place, this.both.label);
-    const up = choice('Axis that points up', axes.map((axis) => `${axis} up`), picture.up, (axis) => picture.setUp(axis));
+    const names = axes.map((axis) => `${axis} up`);
+    const up = choice('Axis that points up', names, picture.up, (axis) => picture.setUp(axis));
     this.root.append(this.follow.label, this.cut.label, this.details, up);
     this.setAxis(this.axis);
   }
@@ -55,6 +56,12 @@ export class ViewOptions {
     const place = this.picture.replays[0].place().getComponent(axis);
     this.slider.value = String(Math.round((1000 * (place - low)) / (high - low || 1)));
     this.applyCut();
+  }
+
+  cutAcross(axis, both) {
+    this.cut.input.checked = true;
+    this.both.input.checked = both;
+    this.setAxis(axis);
   }
 
   toggleCut() {
