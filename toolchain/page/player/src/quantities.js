@@ -2,7 +2,7 @@
 
 const lengthScale = 1e3;
 
-/** Returns the plotted quantities. `largest(key)`: of all replays, in SI units. A value has its `unit` after `scale`. */
+/** Returns the plotted quantities. `largest(key)`: of all replays, in SI units. A value times `scale` is in `unit`. */
 export function quantities(largest) {
   const small = largest('torque') < 0.1;
   return [
