@@ -29,7 +29,8 @@ constexpr const char* kPage = R"(<!DOCTYPE html>
 
 constexpr const char* kOne =
     "The translucent body follows a hand that pushes it into the grey body. The solid blue "
-    "body, the god object, stays on the surface. The red arrow is the force of the spring that pulls the hand back.";
+    "body, the god object, should stay on the surface. The red arrow is the force of the spring that pulls the hand "
+    "back.";
 constexpr const char* kSeveral =
     "Each picture shows another replay of the same motion of a hand. The translucent body "
     "follows the hand into the grey body. The solid coloured body, the god object, should stay on the surface. The red "
