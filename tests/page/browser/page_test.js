@@ -12,6 +12,7 @@ const softwareGl = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsaf
 /** Opens a page. `complaints` collects what the console and the network say. */
 async function open(browser, name, { viewport = wide, scheme = 'light', hash = '' } = {}) {
   const tab = await browser.newPage();
+  tab.setDefaultTimeout(300_000);  // a busy machine draws slowly
   tab.complaints = [];
   tab.on('console', (message) => ['error', 'warn'].includes(message.type()) && !message.text().includes('GPU stall') &&
     tab.complaints.push(message.text()));
@@ -229,7 +230,12 @@ async function withoutWebGl(browser) {
 }
 
 async function runAll(options, named) {
-  const browser = await puppeteer.launch({ executablePath: chromium, args: ['--no-sandbox', ...options] });
+  const browser = await puppeteer.launch({
+    executablePath: chromium,
+    args: ['--no-sandbox', ...options],
+    timeout: 300_000,
+    protocolTimeout: 600_000,
+  });
   try {
     for (const [name, test] of Object.entries(named)) {
       const tab = await test(browser);
