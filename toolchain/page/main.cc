@@ -34,7 +34,7 @@ Opens in any browser, from a disk or a mail, without a network. The page plays t
 3D and as plots. Of a telemetry.csv only the cycles that rendered count. Of more than 20000 cycles the page stores every
 n-th, and the extremes of all plots.
 
-toolchain/page/player/build makes the player, the script in the page. --player names another one.
+The player, the script in the page, stands beside the commands; --player names another one.
 
 Exit codes: 0 done, 64 usage, 65 bad mesh or replay, or replays of different motions, 66 an input is missing or unreadable
 (the player, too), 74 cannot write, 77 no permission to write, 78 bad scene file.)";
@@ -88,7 +88,7 @@ void write_page(const Options& options) {
   }
   godobject::files::output_target(options.output);  // refused before the work
   const fs::path player = player_file(options);
-  godobject::files::require_input(player, "run toolchain/page/player/build, or name a player by --player");
+  godobject::files::require_input(player, "build godobject-page again, which puts it there, or name a player by --player");
   const std::string script = godobject::files::read_text(player);
   const PageScene scene = read_scene(options);
   std::vector<std::string> names;
