@@ -97,8 +97,8 @@ void Watch::cycle(const WatchedCycle& cycle) {
   }
   const bool is_first = !started_;
   if (is_first) start(H_WD);
-  resting_ = (H_WD.translation - H_WD_last_.translation).norm() < 0.01 * q_.voxel_size &&
-                     rotation_vector(H_WD.rotation.conjugate() * H_WD_last_.rotation).norm() * q_.mass.radius <
+  resting_ = (cycle.H_WD.translation - H_WD_last_.translation).norm() < 0.01 * q_.voxel_size &&
+                     rotation_vector(cycle.H_WD.rotation.conjugate() * H_WD_last_.rotation).norm() * q_.mass.radius <
                          0.01 * q_.voxel_size
                  ? resting_ + 1
                  : 0;
@@ -112,7 +112,7 @@ void Watch::cycle(const WatchedCycle& cycle) {
     look_for_overlaps(cycle.report.H_WS);
   }
   H_WS_ = cycle.report.H_WS;
-  H_WD_last_ = H_WD;
+  H_WD_last_ = cycle.H_WD;
   check_wrench(cycle);
   if (!is_contact) return;
   if (cycle.report.contacts > 0) ++findings_.touching;

@@ -172,7 +172,7 @@ class Watch {
   Pose H_WS_;               // the god object after the last cycle
   Pose H_WS_before_;        // and before it
   Pose H_WS_last_start_;    // at the start of the last sub-step
-  Pose H_WD_last_;          // followed device pose
+  Pose H_WD_last_;          // device pose
   double smallest_ = 0.0;   // distance of all points at the start of the last sub-step [m]
   double travelled_ = 0.0;  // largest displacement of a point in this cycle [m]
   int resting_ = 0;         // cycles for which the device has hardly moved

@@ -218,9 +218,8 @@ void Watch::check_progress(const WatchedCycle& cycle) {
 void Watch::check_lag(const WatchedCycle& cycle) {
   constexpr double kMostCycles = 50.0;
   constexpr double kLeastProgress = 1e-4;
-  const Pose H_WD = clamped(cycle.H_WD);
-  const double before = stretch(H_WS_before_, H_WD).norm();
-  const bool approaches = stretch(H_WS_, H_WD).norm() < (1.0 - kLeastProgress) * before;
+  const double before = stretch(H_WS_before_, cycle.H_WD).norm();
+  const bool approaches = stretch(H_WS_, cycle.H_WD).norm() < (1.0 - kLeastProgress) * before;
   behind_ = cycle.report.outcome == Outcome::kCut && !approaches ? behind_ + 1 : 0;
   judge(Property::kLag, behind_, kMostCycles,
         [&] { return fmt::format("cut short for {} cycles under a device at rest", behind_); });

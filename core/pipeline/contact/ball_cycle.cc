@@ -194,8 +194,9 @@ void Center::constrain(const Vector3& aim) noexcept {
     }
     project(spaces_, aim, lengths_.metric.tolerance, motion_, held);
   };
-  solve();
-  if (!box_.limited || box_.contains(at_ + motion_)) return;
+  const bool is_outside = !beyond_.isZero(0.0);
+  if (!is_outside) solve();
+  if (!is_outside && (!box_.limited || box_.contains(at_ + motion_))) return;
   const int contacts = spaces_.count;
   push_faces(box_, {Quaternion::Identity(), at_},
              [&](const Vector3& normal, double gain) noexcept { spaces_.push(normal, gain); });

@@ -67,6 +67,7 @@ class ContactSubsteps {
     is_first_ = result_.substeps + free_substeps_ == 0;
     free_ = is_first_ ? wanted_ : unconstrained_motion(H0_, input_.H_WD);
     free_displacement_ = travel(lengths_.sphere, free_);
+    if (kFriction && input_.outside) friction_.beyond = beyond();
     if (!is_first_) end(times_, &StepTimes::solve_ns);
     memory_.search.odometer.move_to(H0_, lengths_.sphere);
   }
@@ -139,7 +140,7 @@ class ContactSubsteps {
     return true;
   }
 
-  /// Computes the motion nearest to the unconstrained one that all rows and the workspace allow, #4. Then rows that
+  /// Computes the motion nearest to that to the device that all rows and the workspace allow, #4. Then rows that
   /// edge pairs imply are dropped, and rows that found no room are added, if the motion would violate them.
   void constrain() noexcept {
     if (!is_first_) memory_.workspace.last_step = step_;
@@ -418,6 +419,17 @@ class ContactSubsteps {
     return squared(remainder) - squared(aim_);
   }
 
+  /// Returns the squared distance of rest from the aim [m^2], for a device outside of the workspace from the pose that
+  /// the cycle follows: faces hold off the rest of the way, so that a sideways motion would hardly count beside it.
+  double squared_rest() const noexcept {
+    Motion followed = aim_;
+    if (input_.outside) followed.translation -= beyond();
+    return squared(followed);
+  }
+
+  /// Returns the way from the pose that the cycle follows on to the device, in S at the begin of the sub-step [m].
+  Vector3 beyond() const noexcept { return H0_.rotation.conjugate()._transformVector(input_.beyond_W); }
+
   /// Solves again for a coupling that is stiffer in rotation, by the energy of the arcs on which the points move: else
   /// forces with long levers turn the body too far (Newton's method in place of the steepest descent). At rest both
   /// couplings have the same forces.
@@ -466,7 +478,7 @@ class ContactSubsteps {
   void regain_slowly() noexcept {
     const double gain = distance_gain();
     if (result_.inside || !(gain > 0.0)) return;
-    const double rest = std::sqrt(squared(aim_));
+    const double rest = std::sqrt(squared_rest());
     const double farther = std::sqrt(rest * rest + gain) - rest;
     if (!(farther > lengths_.margin)) return;
     const double share = lengths_.margin / farther;
@@ -484,7 +496,7 @@ class ContactSubsteps {
     if (!(gain > 0.0)) return false;
     double most = metric_.tolerance;
     for (std::uint32_t i = 0; i < rows_.count; ++i) most = std::max(most, static_cast<double>(rows_.required_gain[i]));
-    const double rest = squared(aim_);
+    const double rest = squared_rest();
     return std::sqrt(rest + gain) > std::sqrt(rest) + kMostLever * most;
   }
 
@@ -493,6 +505,7 @@ class ContactSubsteps {
     const bool has_friction = kFriction && !memory_.share.is_least();
     const ContactFriction* const friction = has_friction ? &friction_ : nullptr;
     bool contradictory = false;
+    face_push_ = Vector3::Zero();
     if (!input_.outside) {
       least_constraint(rows_, aim_, metric_, friction, last_motion_, work_, step_);
       contradictory = step_.infeasible;
@@ -516,11 +529,15 @@ class ContactSubsteps {
     });
     least_constraint(rows_, aim_, metric_, friction, last_motion_, work_, step_);
     rows_.count = contacts;
+    for (std::uint32_t f = 0; f < step_.force_count; ++f) {
+      const ContactForce& force = step_.forces[f];
+      if (force.id == kFaceOfWorkspace) face_push_ += force.multiplier * force.normal;
+    }
     drop_forces(kFaceOfWorkspace, step_);
     if (step_.force_count > 0) return;
     step_.follows = true;  // to the place in the box that is nearest to the device
     step_.motion = aim_;
-    step_.motion.translation -= H0_.rotation.conjugate()._transformVector(input_.beyond_W);
+    step_.motion.translation -= beyond();
   }
 
   void follow_device() noexcept {
@@ -647,7 +664,7 @@ class ContactSubsteps {
   void limit_motion() noexcept {
     share_.limit_to(memory_.share.motion());
     // by the triangle inequality the distance grows by at most a margin
-    most_gain_ = std::max(0.0, distance_gain()) + 2.0 * lengths_.margin * std::sqrt(squared(aim_));
+    most_gain_ = std::max(0.0, distance_gain()) + 2.0 * lengths_.margin * std::sqrt(squared_rest());
     limit_arcs();
   }
 
@@ -715,7 +732,8 @@ class ContactSubsteps {
     // measured again: surfaces that turn need not raise the energy
     const EndGaps gaps = end_gaps(scene_, H0_, H1_, step_, share);
     const Motion left = on_to_device(H1_, unconstrained_motion(H1_, input_.H_WD));
-    const double fall = lengths_.metric.squared(on_to_device(H0_, free_)) - lengths_.metric.squared(left) - gaps.energy;
+    const double fall = lengths_.metric.squared(on_to_device(H0_, free_)) - lengths_.metric.squared(left) +
+                        2.0 * face_push_.dot(motion_.translation) - gaps.energy;
     const double overshoot = 1.0 - fall / (share * squared(step_.motion));
     if (!(overshoot > kMostOvershoot)) return false;
     is_outdated_ = false;
@@ -760,6 +778,7 @@ class ContactSubsteps {
     const ConstrainedStep tried = step_;
     const CouplingMetric metric = metric_;
     const Motion aim = aim_;
+    const Vector3 face_push = face_push_;
     const std::uint32_t rows = rows_.count;
     const std::uint32_t dropped = result_.dropped;
     const double most_with_arc =
@@ -782,6 +801,7 @@ class ContactSubsteps {
       step_.infeasible |= infeasible;
       metric_ = metric;
       aim_ = aim;
+      face_push_ = face_push;
     }
     return false;
   }
@@ -870,7 +890,8 @@ class ContactSubsteps {
   Pose H0_;
   Pose H0_features_;
   Motion free_;
-  Motion aim_;                  // of the solver: `free_` in `metric_`
+  Motion aim_;                  // of the solver: the motion to the device, in `metric_`
+  Vector3 face_push_;           // of the workspace's faces on the god object in the step, in S [m]
   CouplingMetric metric_;       // in which the step is solved
   double most_gain_{};          // bound of `distance_gain` after second looks [m^2]
   double free_displacement_{};  // upper bound of a point's displacement in `free_` [m]

@@ -23,7 +23,10 @@ CycleInput input_within(const Pose& H_WD, const Motion& velocity_W, const Parame
   input.H_WD.translation = parameters.workspace.nearest(H_WD.translation);
   input.beyond_W = H_WD.translation - input.H_WD.translation;
   input.outside = !input.beyond_W.isZero(0.0);
-  if (input.outside) input.push = workspace_push(-input.beyond_W, velocity_W.translation, parameters);
+  if (!input.outside) return input;
+  input.push = workspace_push(-input.beyond_W, velocity_W.translation, parameters);
+  const double length = input.beyond_W.stableNorm();
+  if (length > kFarthestAim) input.beyond_W *= kFarthestAim / length;
   return input;
 }
 

@@ -251,7 +251,10 @@ bool conclude_without_friction(ContactSet& set, ConstrainedStep& step) noexcept 
 /// metric without viscous friction.
 bool leads_away(const ContactSet& set) noexcept {
   const Vector6 wanted = set.target();
-  return (set.plain_motion() - wanted).squaredNorm() > kMostByGaps * wanted.squaredNorm();
+  Vector6 followed = wanted;  // without what faces of the workspace hold off
+  followed.head<3>() -= set.friction()->beyond;
+  const double farther = (set.plain_motion() - wanted).squaredNorm() - wanted.squaredNorm();
+  return farther > kMostByGaps * followed.squaredNorm();
 }
 
 }  // namespace

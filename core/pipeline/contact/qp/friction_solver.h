@@ -7,9 +7,9 @@
 
 namespace godobject::detail {
 
-/// A motion that is farther from the wanted one than rest, by more than this ratio of the squared distances, leads
-/// away: lost gaps do not explain it [1]. Chosen.
-inline constexpr double kMostByGaps = 1.001;
+/// A motion that is farther from the wanted one than rest leads away if the squared distances differ by more than this
+/// share of that of rest: lost gaps do not explain it [1]. Chosen.
+inline constexpr double kMostByGaps = 0.001;
 
 /// Puts the half space of the row's cone that belongs to `force` into the active set, as a guess.
 void guess_cone(std::uint32_t row, const ContactForce& force, ContactSet& set) noexcept;

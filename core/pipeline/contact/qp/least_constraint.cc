@@ -102,8 +102,9 @@ bool solve_for_whole_slip(ContactRows& rows, const Motion& wanted, const Couplin
   const bool feasible = solve(rows, sum(wanted, friction.slid, 1.0), metric, &friction, last, work, step);
   shift_gains(friction.slid, -1.0, rows);
   step.motion = sum(step.motion, friction.slid, -1.0);
-  const double left = metric.squared(sum(wanted, step.motion, -1.0));
-  if (feasible && !step.unconverged && left <= detail::kMostByGaps * metric.squared(wanted)) return true;
+  const double farther = metric.squared(sum(wanted, step.motion, -1.0)) - metric.squared(wanted);
+  const Motion followed = sum(wanted, {friction.beyond, Vector3::Zero()}, -1.0);
+  if (feasible && !step.unconverged && farther <= detail::kMostByGaps * metric.squared(followed)) return true;
   step = before;
   step.infeasible = step.unconverged = false;
   return false;

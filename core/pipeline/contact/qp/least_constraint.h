@@ -12,12 +12,13 @@ namespace godobject {
 
 /// Coulomb and viscous friction: the coefficients at every contact, and the faces whose friction acts elsewhere.
 struct ContactFriction {
-  double static_ratio = 0.0;    ///< mu_s [1]
-  double kinetic_ratio = 0.0;   ///< mu_k <= mu_s [1]
-  double viscous_step = 0.0;    ///< mu_v / (k_D k_VC,x T) [1]: the contacts share it in proportion to their loads
-  double face_thickness = 0.0;  ///< of ContactPatches::grip [m]
-  ContactPatches patches = {};  ///< on which friction acts elsewhere than at the points
-  Motion slid = {};             ///< in contact, of the same cycle's earlier sub-steps, in S [m, rad]
+  double static_ratio = 0.0;         ///< mu_s [1]
+  double kinetic_ratio = 0.0;        ///< mu_k <= mu_s [1]
+  double viscous_step = 0.0;         ///< mu_v / (k_D k_VC,x T) [1]: the contacts share it in proportion to their loads
+  double face_thickness = 0.0;       ///< of ContactPatches::grip [m]
+  ContactPatches patches = {};       ///< on which friction acts elsewhere than at the points
+  Motion slid = {};                  ///< in contact, of the same cycle's earlier sub-steps, in S [m, rad]
+  Vector3 beyond = Vector3::Zero();  ///< part of the wanted motion that faces of the workspace hold off, in S [m]
 };
 
 /// A contact force on the god object: multiplier normal at `point`, and -multiplier ratio slip at `grip`. A ray of the
@@ -35,8 +36,8 @@ struct ContactForce {
 /// The result of `least_constraint`, and its warm start in the next cycle.
 struct ConstrainedStep {
   Motion motion;  ///< of the god object, in S [m, rad]
-  /// Active forces, at most six. Their sum is motion - wanted in the coupling's metric, without viscous friction; also
-  /// if not converged.
+  /// Active forces, at most six. Their sum is motion - wanted in the coupling's metric, without viscous friction and
+  /// what the workspace's faces push; also if not converged.
   std::array<ContactForce, 6> forces;
   std::uint32_t force_count = 0;
   std::uint32_t contact_count = 0;  ///< different rows of the forces
@@ -90,9 +91,10 @@ inline constexpr int kMostFrictionAdditions = 1064;
 /// meets all rows: Gauss' principle of least constraint. The multipliers are then the contact forces that the device
 /// displays, over its stiffness.
 ///
-/// `wanted`: the unconstrained motion, in S. `friction` null: none. `last`: the last motion, in S. `step`: on entry the
-/// last cycle's result as warm start; of several rows with one id a force belongs to the one whose normal is closest.
-/// `rows` is unchanged afterwards, except for the required gains of infeasible rows, and for rounding with `slid`.
+/// `wanted`: the motion to the device, in S. `friction` null: none; rows of the workspace's faces never have any.
+/// `last`: the last motion, in S. `step`: on entry the last cycle's result as warm start; of several rows with one id a
+/// force belongs to the one whose normal is closest. `rows` is unchanged afterwards, except for the required gains of
+/// infeasible rows, and for rounding with `slid`.
 ///
 /// Without friction: a convex quadratic programme in six variables, solved by a dual active set; the row violated most
 /// enters next. Rows that are infeasible together drop their required gap increase; then the zero motion is feasible.

@@ -339,27 +339,28 @@ TEST(BallCycle, RestsNearestToADeviceOutsideOfTheWorkspace) {
 /// the way along all three in a few sub-steps; without it the motion would be shortened again and again.
 TEST(BallCycle, FindsTheWayAlongAWallWhileAFaceOfTheWorkspaceHoldsIt) {
   static const SceneImage image = image_of(planes({Vector3(0.6, 0.0, 0.8), kY}), 0.004);
-  const Vector3 goal(0.001, -0.004, -0.003);
-  for (const double far : {0.0045, 0.005, 0.0055, 0.006, 0.007}) {
-    BallRun run(image, {-0.001, far, 0.0});
-    run.q.workspace = {true, {-0.01, -0.03, -0.02}, {0.001, 0.03, 0.02}};
-    run.state.H_WS.translation.z() = (run.q.margin + 0.6 * 0.001) / 0.8;
-    ASSERT_GT(run.gap(), 0.0) << far;
-    ASSERT_EQ(run.step(goal), Status::kOk);
-    EXPECT_NEAR(run.center().x(), 0.001, run.lengths().metric.tolerance) << "on the face";
-    EXPECT_LT(run.center().y(), 4e-4) << "at the wall, where the field is curved";
-    EXPECT_GT(run.gap(), run.lengths().least_margin) << far;
-    EXPECT_EQ(run.report.outcome, Outcome::kContact) << far;
-    EXPECT_EQ(run.report.contacts, 2u) << "the face is no contact";
-    EXPECT_LE(run.report.substeps, 5u) << far;
-    for (int i = 0; i < 20; ++i) {
-      const Vector3 before = run.center();
+  for (const double beyond : {0.0, 0.004})
+    for (const double far : {0.0045, 0.005, 0.0055, 0.006, 0.007}) {
+      const Vector3 goal(0.001 + beyond, -0.004, -0.003);
+      BallRun run(image, {-0.001, far, 0.0});
+      run.q.workspace = {true, {-0.01, -0.03, -0.02}, {0.001, 0.03, 0.02}};
+      run.state.H_WS.translation.z() = (run.q.margin + 0.6 * 0.001) / 0.8;
+      ASSERT_GT(run.gap(), 0.0) << far;
       ASSERT_EQ(run.step(goal), Status::kOk);
-      EXPECT_LT((run.center() - before).norm(), run.q.margin) << "it has arrived " << far << ' ' << i;
+      EXPECT_NEAR(run.center().x(), 0.001, run.lengths().metric.tolerance) << "on the face";
+      EXPECT_LT(run.center().y(), 4e-4) << "at the wall, where the field is curved";
+      EXPECT_GT(run.gap(), run.lengths().least_margin) << far;
       EXPECT_EQ(run.report.outcome, Outcome::kContact) << far;
-      EXPECT_LE(run.report.substeps, 2u) << far << ' ' << i;
+      EXPECT_EQ(run.report.contacts, 2u) << "the face is no contact";
+      EXPECT_LE(run.report.substeps, 5u) << far;
+      for (int i = 0; i < 20; ++i) {
+        const Vector3 before = run.center();
+        ASSERT_EQ(run.step(goal), Status::kOk);
+        EXPECT_LT((run.center() - before).norm(), run.q.margin) << "it has arrived " << far << ' ' << i;
+        EXPECT_EQ(run.report.outcome, Outcome::kContact) << far;
+        EXPECT_LE(run.report.substeps, 2u) << far << ' ' << i;
+      }
     }
-  }
 }
 
 /// The centre slides on a plate and past its edge; the device is 1 mm below the top. Beyond the edge nothing holds the

@@ -124,6 +124,67 @@ void expect_rest_in_the_corner() {
   EXPECT_LT((run.report.force.spring_W.force - k * stretch).norm(), 1e-9) << "the whole stretch";
 }
 
+/// Friction holds a body on a slope while the device is beyond a face of the workspace that the body does not reach:
+/// the pull along the slope is a tenth of that against it. Without friction the body follows the pull.
+TEST(ContactCycle, SticksToASlopeUnderADeviceBeyondAFace) {
+  const double angle = 0.25 * M_PI;
+  const HalfSpace slope{Vector3(-std::sin(angle), 0.0, std::cos(angle))};
+  const AnalyticField field(slope, kVoxel);
+  const SampledBody body = box_body();
+  const Vector3 along(std::cos(angle), 0.0, std::sin(angle));
+  const Vector3 start = (0.015 + kMargin) * slope.n;
+  const Vector3 device = start - 0.03 * slope.n + 0.003 * along;
+  const auto moved_after = [&](auto run) {
+    run.parameters.workspace = {true, {-0.1, -0.1, -0.1}, {0.0, 0.1, 0.1}};
+    run.state.H_WS.translation = start;
+    for (int cycle = 0; cycle < 300; ++cycle) EXPECT_EQ(run.step(at(device, {0.0, -angle, 0.0})), Status::kOk);
+    EXPECT_FALSE(run.report.unconverged);
+    EXPECT_TRUE(run.report.outside);
+    return along.dot(run.state.H_WS.translation - start);
+  };
+  const Pose pose = at(start, {0.0, -angle, 0.0});
+  EXPECT_NEAR(moved_after(ContactRun<true>(field, body, pose)), 0.0, 1e-5);
+  EXPECT_NEAR(moved_after(ContactRun<false>(field, body, pose)), 0.003, 1e-5);
+}
+
+/// A body lies between a face of the workspace and a surface that is hardly tilted against it, with less than its
+/// margin of room. It regains the margin slowly, however far beyond the face the device is: a motion along the wedge
+/// would be a hundred times as long as the gain.
+TEST(ContactCycle, RegainsAGapInAWedgeSlowlyWhereverTheDeviceIs) {
+  for (const double tilt : {0.01, 0.004}) {
+    const HalfSpace ceiling{Vector3(std::sin(tilt), 0.0, -std::cos(tilt))};
+    const AnalyticField field(ceiling, kVoxel);
+    const SampledBody body{{{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Constant(1e-4)};
+    for (const double beyond : {0.0, 1e-3, 0.01, 0.1, 1.0}) {
+      const Vector3 start = 0.3 * kMargin * ceiling.n;
+      ContactRun<> run(field, body, at(start));
+      const double lowest = start.z();
+      run.parameters.workspace = {true, {-0.1, -0.1, lowest}, {0.1, 0.1, 0.1}};
+      ASSERT_EQ(run.step(at({0.0, 0.0, lowest - beyond})), Status::kOk);
+      EXPECT_LE((run.state.H_WS.translation - start).norm(), 2.0 * kMargin) << tilt << ", beyond " << beyond;
+    }
+  }
+}
+
+/// The body touches a plane, and the device is beyond a face that is parallel to it, or not: the device is damped once.
+TEST(ContactCycle, DampsADeviceBeyondAFaceOnce) {
+  const AnalyticField field(HalfSpace{}, kVoxel);
+  const SampledBody body = box_body();
+  for (const double lowest : {-0.1, 0.0, 0.004, 0.008}) {
+    ContactRun<> run(field, body, at({0.0, 0.0, 0.02}));
+    run.parameters.damping = 20.0;
+    run.parameters.workspace = {true, {-0.1, -0.1, lowest}, {0.1, 0.1, 0.1}};
+    Motion velocity;
+    for (int cycle = 0; cycle < 50; ++cycle) ASSERT_EQ(run.step(at({0.0, 0.0, 0.003})), Status::kOk);
+    velocity.translation = {0.0, 0.0, -0.1};
+    ASSERT_EQ(run.step(at({0.0, 0.0, 0.003}), velocity), Status::kOk);
+    const Vector3 damping = run.report.force.total_W.force - run.report.force.spring_W.force;
+    const double expected = 20.0 * run.parameters.coupling_translation * 0.1;
+    EXPECT_LT((damping - Vector3(0.0, 0.0, expected)).norm(), 1e-6 * expected) << lowest;
+    EXPECT_EQ(run.report.outside, lowest > 0.003);
+  }
+}
+
 TEST(ContactCycle, RestsBetweenASlopeAndAFaceOfTheWorkspace) {
   expect_rest_in_the_corner<false>();
   expect_rest_in_the_corner<true>();

@@ -75,9 +75,22 @@ TEST(Commit, AddsThePushOfTheFacesOnlyOutside) {
   ASSERT_EQ(commit.run(), Status::kOk);
   EXPECT_TRUE(commit.report.outside);
   EXPECT_EQ(commit.report.force.spring_W.force, force_of(101.0).spring_W.force);
-  EXPECT_EQ(commit.report.force.total_W.force, force_of(101.0).total_W.force);
   EXPECT_EQ(commit.report.force.spring_W.torque, force_of(1.0).spring_W.torque) << "a face has no torque";
   EXPECT_EQ(commit.report.force.total_W.torque, force_of(1.0).total_W.torque);
+}
+
+/// Along each axis contacts and faces damp together by no more than the larger of the two, unless they oppose each
+/// other.
+TEST(Commit, DampsEachAxisOnce) {
+  Commit commit;
+  commit.input.outside = true;
+  commit.force.spring_W.force = Vector3(10.0, 10.0, -10.0);
+  commit.force.total_W.force = Vector3(13.0, 6.0, -11.0);  // damping 3, -4, -1
+  commit.input.push.spring_W.force = Vector3(100.0, 100.0, -100.0);
+  commit.input.push.total_W.force = Vector3(105.0, 98.0, -93.0);  // damping 5, -2, 7
+  ASSERT_EQ(commit.run(), Status::kOk);
+  EXPECT_EQ(commit.report.force.spring_W.force, Vector3(110.0, 110.0, -110.0));
+  EXPECT_EQ(commit.report.force.total_W.force, Vector3(110.0 + 5.0, 110.0 - 4.0, -110.0 - 1.0 + 7.0));
 }
 
 TEST(Commit, RefusesEachNumberThatIsNotFiniteAndChangesNothing) {
@@ -283,8 +296,12 @@ TEST(Outcome, HasAWordForEach) {
   const struct {
     Outcome outcome;
     std::string word;
-  } words[] = {{Outcome::kFree, "free"},         {Outcome::kContact, "contact"},   {Outcome::kStartInside, "start_inside"},
-               {Outcome::kCut, "cut"},           {Outcome::kOverflow, "overflow"}, {Outcome::kBadInput, "bad_input"},
+  } words[] = {{Outcome::kFree, "free"},
+               {Outcome::kContact, "contact"},
+               {Outcome::kStartInside, "start_inside"},
+               {Outcome::kCut, "cut"},
+               {Outcome::kOverflow, "overflow"},
+               {Outcome::kBadInput, "bad_input"},
                {Outcome::kInfeasible, "infeasible"}};
   for (const auto& [outcome, word] : words) EXPECT_EQ(name(outcome), word);
   EXPECT_EQ(name(static_cast<Outcome>(200)), std::string("unknown"));

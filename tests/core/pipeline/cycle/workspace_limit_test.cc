@@ -117,6 +117,12 @@ TEST(InputWithin, MovesTheDeviceIntoTheBox) {
   }
   EXPECT_GT(outside, 100);
   EXPECT_LT(outside, 495);
+  // a god object aims no farther than 100 m beyond the box; the push is that of the whole way
+  for (const double distance : {99.0, 1e3, 1e150, 1e300}) {
+    const CycleInput far = input_within(pose_at({0.0, 0.2 + distance, 0.0}, Vector3::Zero()), {}, q);
+    EXPECT_NEAR(far.beyond_W.y(), std::min(distance, 100.0), 1e-9) << distance;
+    EXPECT_NEAR(far.push.spring_W.force.y() / distance, -q.stiffness * q.coupling_translation, 1.0);
+  }
   q.workspace.limited = false;
   const Pose far = pose_at({1.0, -2.0, 3.0}, {0.1, 0.2, 0.3});
   const CycleInput input = input_within(far, {}, q);

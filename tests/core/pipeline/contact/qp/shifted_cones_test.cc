@@ -185,6 +185,24 @@ TEST(Sticks, TellsWhetherForcesInTheConesHoldTheBody) {
   }
 }
 
+/// The body turns about a point that sticks, until a face of the workspace stops its origin, which slides along the
+/// face. By hand, with the point as far away as the radius of gyration: the load and the friction force are 1 mm.
+TEST(Sticks, LetsAFaceOfTheWorkspaceSlide) {
+  const double L = kConeMetric.gyration;
+  ConeBench bench;
+  bench.friction = {2.0, 2.0, 0.0};
+  bench.push(Vector3::UnitZ(), Vector3(0.0, L, 0.0), 0.0);
+  bench.rows->push(kFaceOfWorkspace, -Vector3::UnitX(), Vector3::Zero(), -0.001);
+  bench.wanted = {Vector3(0.002, 0.0, -0.002), Vector3(0.0, 0.0, 0.002 / L)};
+  ContactSet set = bench.set();
+  ASSERT_TRUE(set.enter(0, Motion{}));
+  EXPECT_TRUE(detail::sticks(set));
+  EXPECT_NEAR(set.motion().translation.x(), 0.001, 1e-8);
+  EXPECT_NEAR(set.motion().translation.z(), -0.001, 1e-8);
+  EXPECT_NEAR(set.motion().rotation.z(), 0.001 / L, 1e-7);
+  set.close_all();
+}
+
 /// A second row is violated by the rest of the first contact: it becomes a contact, too.
 TEST(Sticks, HoldsTheBodyAtRowsThatWereNotYetContacts) {
   ConeBench bench;
