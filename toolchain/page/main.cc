@@ -88,7 +88,8 @@ void write_page(const Options& options) {
   }
   godobject::files::output_target(options.output);  // refused before the work
   const fs::path player = player_file(options);
-  godobject::files::require_input(player, "build godobject-page again, which puts it there, or name a player by --player");
+  godobject::files::require_input(player,
+                                  "build godobject-page again, which puts it there, or name a player by --player");
   const std::string script = godobject::files::read_text(player);
   const PageScene scene = read_scene(options);
   std::vector<std::string> names;
