@@ -34,7 +34,7 @@ Opens in any browser, from a disk or a mail, without a network. The page plays t
 3D and as plots. Of a telemetry.csv only the cycles that rendered count. Of more than 20000 cycles the page stores every
 n-th, and the extremes of all plots.
 
-The player, the script in the page, stands beside the commands; --player names another one.
+The player, the script in the page, is ../share/godobject/player.js beside the commands; --player names another one.
 
 Exit codes: 0 done, 64 usage, 65 bad mesh or replay, or replays of different motions, 66 an input is missing or unreadable
 (the player, too), 74 cannot write, 77 no permission to write, 78 bad scene file.)";
@@ -47,11 +47,11 @@ struct Options {
   std::string up = "z";
 };
 
-/// Returns the file of the player: as named, or where the build puts it, beside the folder of the commands.
+/// Returns the file of the player: as named, or where build and installation put it, beside the folder of the commands.
 fs::path player_file(const Options& options) {
   if (!options.player.empty()) return options.player;
   std::error_code ignored;
-  return fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path() / "player" / "player.js";
+  return fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path() / "share" / "godobject" / "player.js";
 }
 
 /// Returns the names of replays: those of the files without the extension, with the folder if two are alike.
