@@ -182,20 +182,6 @@ TEST_F(CycleRecordTest, CountsCyclesInWhichTheJointsCannotGiveTheWholeWrench) {
   EXPECT_LT(counters().scaled, counters().cycles);
 }
 
-/// The box of the workspace ends where the plate holds the ball: no motion meets both, and friction converges in none.
-TEST_F(CycleRecordTest, CountsCyclesWhoseFrictionDoesNotConverge) {
-  setup_.friction = true;
-  scene_.settings.friction = 1;
-  scene_.settings.friction_static = scene_.settings.friction_kinetic = 0.6;
-  scene_.workspace = {true, Vector3::Constant(-1.0), Vector3(1.0, 1.0, 0.03)};
-  make();
-  run_to(Mode::kRunning);
-  EXPECT_EQ(counters().unconverged, 0u);
-  press(0.033);
-  EXPECT_GT(counters().unconverged, 0u);
-  EXPECT_LT(counters().unconverged, 230u) << "press takes 230 cycles";
-}
-
 /// A cycle that finds a fault renders nothing, whatever it has computed before.
 TEST_F(CycleRecordTest, CountsNoLimitInTheCycleThatStops) {
   for (ArmJoint& joint : arm_.model.joints) joint.torque = std::min(joint.torque, 30.0);
