@@ -1,5 +1,7 @@
 #include "core/pipeline/cycle/workspace_limit.h"
 
+#include <algorithm>
+
 namespace godobject {
 
 DeviceForce workspace_push(const Vector3& back_W, const Vector3& velocity_W, const Parameters& parameters) noexcept {
@@ -26,7 +28,8 @@ CycleInput input_within(const Pose& H_WD, const Motion& velocity_W, const Parame
   if (!input.outside) return input;
   input.push = workspace_push(-input.beyond_W, velocity_W.translation, parameters);
   const double length = input.beyond_W.stableNorm();
-  if (length > kFarthestAim) input.beyond_W *= kFarthestAim / length;
+  const double farthest = kFarthestAim * std::max(parameters.mass.radius, parameters.voxel_size);
+  if (length > farthest) input.beyond_W *= farthest / length;
   return input;
 }
 

@@ -27,9 +27,10 @@ namespace godobject {
 /// to the nearest point of the box [m]. `velocity_W`: of D's origin [m/s]. Real-time safe.
 DeviceForce workspace_push(const Vector3& back_W, const Vector3& velocity_W, const Parameters& parameters) noexcept;
 
-/// Longest way beyond the box at whose end the god object aims [m]. Chosen: farther than any arm reaches beyond its
-/// workspace; a way that is a thousand times as long would cost precision, and with friction time.
-inline constexpr double kFarthestAim = 100.0;
+/// Longest way beyond the box at whose end the god object aims, in radii of the moving body or voxels, whichever are
+/// larger. Chosen: farther than any arm reaches beyond its workspace; much longer ways would cost precision, and with
+/// friction time.
+inline constexpr double kFarthestAim = 1e4;
 
 /// Returns the input of a cycle for the device pose `H_WD` and the velocity of its origin. Outside of the workspace the
 /// pose is moved into it, with the way out, shortened to kFarthestAim, and the push of its faces. Real-time safe.

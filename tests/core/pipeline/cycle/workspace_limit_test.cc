@@ -117,7 +117,9 @@ TEST(InputWithin, MovesTheDeviceIntoTheBox) {
   }
   EXPECT_GT(outside, 100);
   EXPECT_LT(outside, 495);
-  // a god object aims no farther than 100 m beyond the box; the push is that of the whole way
+  // a god object aims no farther than 100 m beyond the box, of 10 mm times 10^4; the push is that of the whole way
+  q.mass.radius = 0.01;
+  q.voxel_size = 0.002;
   for (const double distance : {99.0, 1e3, 1e150, 1e300}) {
     const CycleInput far = input_within(pose_at({0.0, 0.2 + distance, 0.0}, Vector3::Zero()), {}, q);
     EXPECT_NEAR(far.beyond_W.y(), std::min(distance, 100.0), 1e-9) << distance;
