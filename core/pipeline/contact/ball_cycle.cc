@@ -177,10 +177,13 @@ void Center::push_contact() noexcept {
 }
 
 /// Tells whether the motion ends farther from `aim` than rest, by much more than any gap has to grow (kMostLever).
+/// Faces of the workspace hold off `beyond_`, beside which a sideways motion would hardly count.
 bool Center::leads_far_away(const Vector3& aim) const noexcept {
   double most = lengths_.metric.tolerance;
   for (int i = 0; i < spaces_.count; ++i) most = std::max(most, spaces_.gain[static_cast<std::size_t>(i)]);
-  return (motion_ - aim).norm() > aim.norm() + kMostLever * most;
+  const double farther = (motion_ - aim).squaredNorm() - aim.squaredNorm();
+  const double rest = (aim - beyond_).norm();
+  return farther > 0.0 && std::sqrt(rest * rest + farther) > rest + kMostLever * most;
 }
 
 /// Computes the motion nearest to `aim` that all half spaces and the workspace allow. Half spaces that contradict each

@@ -12,9 +12,9 @@ struct CycleInput {
   Pose H_WD;             ///< body frame B as the device holds it; its origin lies in the workspace
   Motion velocity_W;     ///< of D's origin [m/s], and angular [rad/s]; only the damping uses it
   bool outside = false;  ///< the device is outside of the workspace; `H_WD` was moved to the nearest point of the box
-  Vector3 beyond_W =
-      Vector3::Zero();  ///< from that point to the device, at most kFarthestAim [m]; zero unless `outside`
-  DeviceForce push;     ///< force of the workspace's faces on the device; zero unless `outside`
+  /// From that point to the device [m], shortened if it is very long (kFarthestAim); zero unless `outside`.
+  Vector3 beyond_W = Vector3::Zero();
+  DeviceForce push;  ///< force of the workspace's faces on the device; zero unless `outside`
 };
 
 /// The state that all solvers share. Only `commit` and `Session` write it.
