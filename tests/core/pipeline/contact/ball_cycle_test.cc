@@ -335,6 +335,22 @@ TEST(BallCycle, RestsNearestToADeviceOutsideOfTheWorkspace) {
   EXPECT_GT(differ, 20) << "from the place that is nearest to the place in the box nearest to the device";
 }
 
+/// The centre is between a face of the workspace and a plane that is hardly tilted against it, with less than its
+/// margin of room. It does not leave along the wedge, however far beyond the face the device is.
+TEST(BallCycle, StaysInAWedgeWhereverTheDeviceIs) {
+  constexpr double kTilt = 2e-4;
+  const Vector3 n(std::sin(kTilt), 0.0, -std::cos(kTilt));
+  const SceneImage image = image_of(planes({n}), 0.004);
+  for (const double beyond : {0.0, 0.001, 0.01, 0.1, 1.0}) {
+    BallRun run(image, Vector3::Zero());
+    const Vector3 start = 0.9 * run.q.margin * n;
+    run.state.H_WS.translation = start;
+    run.q.workspace = {true, {-0.03, -0.03, start.z()}, {0.03, 0.03, 0.03}};
+    ASSERT_EQ(run.step({0.0, 0.0, start.z() - beyond}), Status::kOk);
+    EXPECT_LT((run.center() - start).norm(), 4.0 * run.q.margin) << beyond;
+  }
+}
+
 /// A slope pushes the centre onto a face of the workspace, and there is a wall in front of it. The second look finds
 /// the way along all three in a few sub-steps; without it the motion would be shortened again and again.
 TEST(BallCycle, FindsTheWayAlongAWallWhileAFaceOfTheWorkspaceHoldsIt) {
