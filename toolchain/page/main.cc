@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,12 +11,9 @@
 #include "toolchain/command_line/run.h"
 #include "toolchain/figures/replay_log.h"
 #include "toolchain/files/atomic_file.h"
-#include "toolchain/files/input_file.h"
 #include "toolchain/files/output_target.h"
-#include "toolchain/files/text_file.h"
+#include "toolchain/page/player_file.h"
 #include "toolchain/page/replay_page.h"
-#include "toolchain/scene_compiler/scene_config.h"
-#include "toolchain/viewer/scene_bodies.h"
 
 namespace {
 
@@ -47,13 +43,6 @@ struct Options {
   std::string up = "z";
 };
 
-/// Returns the file of the player: as named, or where build and installation put it, beside the folder of the commands.
-fs::path player_file(const Options& options) {
-  if (!options.player.empty()) return options.player;
-  std::error_code ignored;
-  return fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path() / "share" / "godobject" / "player.js";
-}
-
 /// Returns the names of replays: those of the files without the extension, with the folder if two are alike.
 std::vector<std::string> replay_names(const std::vector<std::string>& files) {
   std::vector<std::string> names;
@@ -72,11 +61,7 @@ PageScene read_scene(const Options& options) {
   const std::vector<std::string> names = replay_names(options.replays);
   for (std::size_t i = 0; i < names.size(); ++i)
     scene.replays.push_back({names[i], godobject::figures::read_replay_log(options.replays[i])});
-  scene.bodies = godobject::viewer::read_scene_bodies(options.scene);
-  const auto config = godobject::scene_compiler::read_scene_config(options.scene);
-  scene.still_name = config.still.file.stem().string();
-  scene.moving_name = config.moving.file.stem().string();
-  scene.workspace = config.workspace;
+  static_cast<godobject::page::PageBodies&>(scene) = godobject::page::read_page_bodies(options.scene);
   scene.up_axis = options.up[0] - 'x';
   return scene;
 }
@@ -87,10 +72,7 @@ void write_page(const Options& options) {
                                                 options.replays.size(), kMostReplays));
   }
   godobject::files::output_target(options.output);  // refused before the work
-  const fs::path player = player_file(options);
-  godobject::files::require_input(player,
-                                  "build godobject-page again, which puts it there, or name a player by --player");
-  const std::string script = godobject::files::read_text(player);
+  const std::string script = godobject::page::read_player(options.player);
   const PageScene scene = read_scene(options);
   std::vector<std::string> names;
   for (const auto& replay : scene.replays) names.push_back(replay.name);

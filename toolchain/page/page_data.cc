@@ -11,10 +11,8 @@
 
 #include "toolchain/command_line/failure.h"
 #include "toolchain/page/column_pack.h"
+#include "toolchain/page/scene_header.h"
 #include "toolchain/page/thinning.h"
-#include "toolchain/scene_compiler/mesh/mass_properties.h"
-#include "toolchain/scene_compiler/mesh/mesh_edges.h"
-#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 #include "toolchain/viewer/camera.h"
 
 namespace godobject::page {
@@ -25,65 +23,15 @@ using command::Failure;
 using figures::ReplayLog;
 using figures::ReplayRow;
 using nlohmann::json;
-using scene_compiler::TriangleMesh;
 
 // Steps of the columns: far below what a plot or a picture shows.
-constexpr double kTimeStep = 1e-6;       // [s]
-constexpr double kPositionStep = 1e-7;   // [m]
-constexpr double kRotationStep = 1e-6;   // of a component of a unit quaternion
-constexpr double kForceStep = 1e-4;      // [N]
-constexpr double kTorqueStep = 1e-6;     // [Nm]
-constexpr double kDistanceStep = 1e-8;   // of depth and stretch [m]
-constexpr double kDurationStep = 1e-8;   // [s]
-constexpr double kQuantisation = 65535;  // steps along an edge of a mesh's bounding box
-
-json array_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
-/// Returns the centre of mass of the enclosed volume; of an open mesh, that of its surface. In the mesh's frame [m].
-Vector3 centre_of_mass(const TriangleMesh& mesh, bool closed) {
-  if (closed) {
-    const auto moments = scene_compiler::moments_of_volume(mesh);
-    if (moments.volume > 0.0) return moments.center;
-  }
-  Vector3 sum = Vector3::Zero();
-  double area = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vector3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
-    const double part = scene_compiler::triangle_area(p, q, r);
-    sum += part * (p + q + r) / 3.0;
-    area += part;
-  }
-  return sum / area;
-}
-
-/// Returns the entry of a body in the header.
-json body_entry(const TriangleMesh& mesh, const std::string& name, ColumnPack& pack) {
-  if (mesh.triangles.size() > kMaxTriangles) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: has {} triangles, a page shows at most {}; write a scene file "
-                                                  "with a decimated mesh for the page",
-                                                  name, mesh.triangles.size(), kMaxTriangles));
-  }
-  Vector3 low = mesh.vertices.front();
-  Vector3 high = low;
-  for (const Vector3& vertex : mesh.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
-  json entry{{"name", name}, {"low", array_of(low)}, {"high", array_of(high)}};
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> offsets;
-    for (const Vector3& vertex : mesh.vertices) offsets.push_back(vertex[axis] - low[axis]);
-    const double step = std::max((high[axis] - low[axis]) / kQuantisation, 1e-12);  // a flat mesh
-    entry["vertices"].push_back(pack.add(offsets, step));
-  }
-  std::vector<std::uint32_t> corners;
-  for (const auto& triangle : mesh.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
-  entry["triangles"] = pack.add(corners);
-  const bool closed = scene_compiler::MeshEdges(mesh).closed();
-  entry["closed"] = closed;
-  entry["centre"] = array_of(centre_of_mass(mesh, closed));
-  return entry;
-}
+constexpr double kTimeStep = 1e-6;      // [s]
+constexpr double kPositionStep = 1e-7;  // [m]
+constexpr double kRotationStep = 1e-6;  // of a component of a unit quaternion
+constexpr double kForceStep = 1e-4;     // [N]
+constexpr double kTorqueStep = 1e-6;    // [Nm]
+constexpr double kDistanceStep = 1e-8;  // of depth and stretch [m]
+constexpr double kDurationStep = 1e-8;  // [s]
 
 /// Refuses replays of different motions. A row of `bad_input` may have any device pose.
 void require_same_motion(const std::vector<NamedReplay>& replays) {
@@ -240,37 +188,15 @@ std::vector<viewer::Placement> shown_placements(const std::vector<NamedReplay>& 
   return placements;
 }
 
-json camera_entry(const PageScene& scene) {
-  const viewer::Camera camera = viewer::make_camera({.still = scene.bodies.still,
-                                                     .moving = scene.bodies.moving,
-                                                     .placements = shown_placements(scene.replays),
-                                                     .up_axis = scene.up_axis,
-                                                     .zoom = 1.0,
-                                                     .direction = {}});
-  return {{"eye", array_of(camera.eye)}, {"target", array_of(camera.target)}, {"half_view", viewer::kHalfView}};
-}
-
-std::string length_bytes(std::size_t length) {
-  std::string bytes;
-  for (int i = 0; i < 4; ++i) bytes += static_cast<char>((length >> (8 * i)) & 0xffu);
-  return bytes;
-}
-
 }  // namespace
 
 std::string page_data(const PageScene& scene) {
   require_same_motion(scene.replays);
   ColumnPack pack;
-  json header;
-  header["up"] = scene.up_axis;
-  header["still"] = body_entry(scene.bodies.still, scene.still_name, pack);
-  header["moving"] = body_entry(scene.bodies.moving, scene.moving_name, pack);
-  if (scene.workspace) header["workspace"] = {{"low", scene.workspace->low}, {"high", scene.workspace->high}};
-  header["camera"] = camera_entry(scene);
+  nlohmann::json header = scene_header(scene, shown_placements(scene.replays), pack);
   const auto& centre = header["moving"]["centre"];
   ReplayColumns(scene.replays, Vector3(centre[0], centre[1], centre[2]), pack).write(header);
-  const std::string text = header.dump(-1, ' ', true, json::error_handler_t::replace);
-  return length_bytes(text.size()) + text + pack.bytes();
+  return packed(header, pack);
 }
 
 }  // namespace godobject::page

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/scene/format.h"
 #include "toolchain/figures/replay_log.h"
-#include "toolchain/viewer/scene_bodies.h"
+#include "toolchain/page/scene_header.h"
 
 namespace godobject::page {
 
@@ -17,16 +15,9 @@ struct NamedReplay {
 };
 
 /// A scene and the replays that a page plays side by side.
-struct PageScene {
-  viewer::SceneBodies bodies;
-  std::string still_name, moving_name;
-  std::optional<format::Workspace> workspace;  ///< box of the moving body's centre of mass, in W [m]
-  int up_axis = 2;                             ///< axis of W that points up: 0 .. 2
-  std::vector<NamedReplay> replays;            ///< one or more, of the same motion of the device
+struct PageScene : PageBodies {
+  std::vector<NamedReplay> replays;  ///< one or more, of the same motion of the device
 };
-
-/// Largest number of triangles of a body: the page stays below ten megabytes.
-inline constexpr std::size_t kMaxTriangles = 500'000;
 
 /// Returns the data of a page: the length of the header (four bytes, lowest first), the header (JSON), and the columns
 /// that it refers to (see ColumnPack). README.md lists the keys of the header. Vertices are rounded to 1 / 65535 of the
