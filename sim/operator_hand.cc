@@ -33,6 +33,7 @@ OperatorHand::OperatorHand(const HandParameters& parameters, std::span<const Pos
     : parameters_(parameters), script_(script), start_(1e-9 * static_cast<double>(start_ns)) {}
 
 BodyState OperatorHand::target(double time) const noexcept {
+  if (steered_) return *steered_;
   BodyState target;
   if (script_.empty()) return target;
   const double rows = (time - start_) / kRow;
@@ -76,7 +77,7 @@ HandWrenches OperatorHand::wrenches(const BodyState& target, const BodyState& ha
   if (p.grip == Grip::kNone) return {};
   const BodyState& held = p.grip == Grip::kRigid ? tool : hand;
   HandWrenches result;
-  if (script_.empty()) {
+  if (is_passive()) {
     result.F_H_R = {-p.damping * held.velocity.translation, -p.rotation_damping * held.velocity.rotation};
   } else {
     result.F_H_R = pull(target, held, p.stiffness, p.damping, p.rotation_stiffness, p.rotation_damping);
@@ -96,7 +97,7 @@ double OperatorHand::energy(const BodyState& target, const BodyState& hand, cons
               0.5 * p.inertia * hand.velocity.rotation.squaredNorm() +
               stored(hand.pose, tool.pose, p.grip_stiffness, p.grip_rotation_stiffness);
   }
-  if (!script_.empty()) {
+  if (!is_passive()) {
     const Pose& held = p.grip == Grip::kRigid ? tool.pose : hand.pose;
     energy += stored(target.pose, held, p.stiffness, p.rotation_stiffness);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "godobject/pose.h"
@@ -50,15 +51,18 @@ class OperatorHand {
   OperatorHand() = default;
 
   /// `script`: target poses H_RM of the tool, `kRow` apart, the first at time `start_ns`; outlives the hand. The first
-  /// pose holds before the script, the last one after it. Without a script the hand is passive: a mass, damped against
-  /// the room.
+  /// pose holds before the script, the last one after it. Without a script the hand is passive until `steer`: a mass,
+  /// damped against the room.
   explicit OperatorHand(const HandParameters& parameters, std::span<const Pose> script = {},
                         std::int64_t start_ns = 0) noexcept;
 
   const HandParameters& parameters() const noexcept { return parameters_; }
 
-  /// The target at `time` [s]: the script, interpolated by cubic Hermite splines with continuous velocity. At rest at
-  /// the origin without a script.
+  /// Sets the target of the tool H_RM from now on, in place of the script's.
+  void steer(const BodyState& target) noexcept { steered_ = target; }
+
+  /// The target at `time` [s]: the one of `steer`; else that of the script, interpolated by cubic Hermite splines with
+  /// continuous velocity. At rest at the origin without both.
   BodyState target(double time) const noexcept;
 
   /// Wrenches of springs and dampers. With a rigid grip the tool's state replaces the hand's.
@@ -68,8 +72,11 @@ class OperatorHand {
   double energy(const BodyState& target, const BodyState& hand, const BodyState& tool) const noexcept;
 
  private:
+  bool is_passive() const noexcept { return script_.empty() && !steered_; }
+
   HandParameters parameters_;
   std::span<const Pose> script_;
+  std::optional<BodyState> steered_;
   double start_ = 0.0;  // [s]
 };
 

@@ -54,6 +54,8 @@ class Plant {
   /// Puts a wrench on the tool, until the next call.
   void set_tool_load(const Wrench& F_M_R) noexcept { tool_load_R_ = F_M_R; }
   void set_velocity(const JointVector& qd) noexcept { qd_ = qd; }
+  /// As OperatorHand::steer.
+  void steer_hand(const BodyState& target) noexcept { hand_.steer(target); }
 
   const JointVector& positions() const noexcept { return q_; }
   const JointVector& velocities() const noexcept { return qd_; }

@@ -17,7 +17,16 @@
 
 namespace godobject::firmware {
 
+class Companion;
 class OperatorNotice;
+
+/// Settings of a run that `Session::change` replaces while it goes on.
+struct Rendering {
+  Solver solver = Solver::kContact;
+  bool friction = false;
+  double stiffness = 0.0;  ///< k_D [N/m]
+  double damping = 0.0;    ///< b_D [Ns/m]
+};
 
 /// One run of the controller, from checked files to the stopped drives. It owns everything that the loop uses: scene,
 /// rings, drives, cycle, report. Large: make it on the heap, before the loop.
@@ -33,12 +42,27 @@ class Session {
   /// cannot be started, a right is missing or a log cannot be made.
   std::string run(const std::optional<double>& duration, RunRequests& requests);
 
+  /// The same, accompanied: the arm must be simulated, in virtual time. Without `duration` the run lasts until
+  /// `requests.end`. No file is written.
+  std::string run(Companion& companion, RunRequests& requests);
+
+  /// Renders with another solver or other gains from the next cycle on; the god object starts again at the device pose.
+  /// Only for a Companion, between two cycles. The gain check is not made. Returns false, without effect, if image or
+  /// build lack the solver or friction, or if a gain is out of the range of an image.
+  bool change(const Rendering& rendering) noexcept;
+
+  Rendering rendering() const noexcept;
+  const SceneView& scene() const noexcept { return scene_; }
+  const Placement& placement() const noexcept { return placement_; }
+  double delay() const noexcept { return delay_; }  ///< from the sample of a position to the torque [s]
+
  private:
   void start_cycle();
   std::uint64_t work_budget(const CycleSetup& setup) const;
   std::uint64_t measured_budget(const CycleSetup& setup, double seconds) const;
   RunSetup run_setup(const std::optional<double>& duration, hal::Clock& stopwatch) const;
   bool run_loop(const RunSetup& setup, RunRequests& requests, RunRecords& records);
+  void run_accompanied(const RunSetup& setup, hal::Clock& clock, RunRequests& requests, Companion& companion);
   void run_in_virtual_time(const RunSetup& setup, hal::Clock& clock, RunRequests& requests, RunRecords& records,
                            OperatorNotice& notice);
   std::string describe_stop() const;
@@ -51,6 +75,7 @@ class Session {
   hal::CanLogRing bus_ring_;
   RunReport report_;
   std::unique_ptr<DriveLink> link_;
+  double delay_ = 0.0;                         // of the drives [s]
   std::optional<files::AlignedBytes> memory_;  // of the god object
   std::optional<ControlCycle> cycle_;
   std::optional<long> page_faults_;  // of the loop's thread, in a real-time run

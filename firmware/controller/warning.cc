@@ -1,5 +1,6 @@
 #include "firmware/controller/warning.h"
 
+#include <cerrno>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@ namespace godobject::firmware {
 
 void warn(const std::string& line) {
   std::fflush(stdout);
-  fmt::print(stderr, "godobject-controller: {}\n", line);
+  fmt::print(stderr, "{}: {}\n", program_invocation_short_name, line);
 }
 
 }  // namespace godobject::firmware

@@ -23,6 +23,15 @@ ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) no
       observer_(drives.delay() / setup.period),
       passivity_(with_delay(setup.passivity, drives.delay() / setup.period)) {}
 
+Status ControlCycle::start(Solver solver, bool friction) noexcept {
+  const Status status = god_object_.start(Scene::of(*setup_.scene), solver, friction, setup_.memory);
+  if (status != Status::kOk) return status;
+  setup_.solver = solver;
+  setup_.friction = friction;
+  god_object_.set_work_budget(setup_.work_budget);
+  return status;
+}
+
 // clang-format off: the steps stand in a column
 void ControlCycle::run_once(const LoopEvents& events) noexcept {
   drives_.receive(reading_);

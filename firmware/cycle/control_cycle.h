@@ -101,11 +101,13 @@ class ControlCycle {
 
   /// Starts the god object, before the first `run_once`. kNotInImage: the scene was compiled without this solver, or
   /// without friction; kNotInBuild: this build is.
-  Status start() noexcept {
-    const Status status = god_object_.start(Scene::of(*setup_.scene), setup_.solver, setup_.friction, setup_.memory);
-    god_object_.set_work_budget(setup_.work_budget);
-    return status;
-  }
+  Status start() noexcept { return start(setup_.solver, setup_.friction); }
+
+  /// Starts the god object again, before the first `run_once` or between two of them, with the gains that the scene has
+  /// now. Statuses as above; then nothing is changed. Not for a real-time loop: it takes milliseconds.
+  Status start(Solver solver, bool friction) noexcept;
+  Solver solver() const noexcept { return setup_.solver; }
+  bool friction() const noexcept { return setup_.friction; }
 
   /// Begins a cycle: requests the joints' positions, which `run_once` takes `collect_ns` later.
   void request() noexcept { drives_.request(); }

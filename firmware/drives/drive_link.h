@@ -32,7 +32,7 @@ class DriveLink {
   virtual hal::JointDrives& drives() noexcept = 0;
 
   /// The simulated arm behind the link; null: the arm is real.
-  virtual const SimulatedArm* simulated_arm() const noexcept = 0;
+  virtual SimulatedArm* simulated_arm() noexcept = 0;
 
   /// True: the loop keeps to the machine's clock, on a real-time thread. False: it runs in virtual time.
   virtual bool real_time() const noexcept = 0;

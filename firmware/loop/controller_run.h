@@ -35,6 +35,7 @@ static_assert(std::atomic<Standing>::is_always_lock_free);
 struct RunReport {
   LoopStatistics loop;
   DurationHistogram computing;                      ///< computing time of a cycle, by the stopwatch
+  std::int64_t computed_ns = 0;                     ///< the same of the last cycle
   DurationHistogram round_trip;                     ///< from the request to the last sample; filled by the reader
   std::uint64_t beyond_plan = 0;                    ///< cycles that computed for longer than `compute_ns`
   double largest_force = 0.0;                       ///< largest rendered force at the hand [N]
@@ -79,6 +80,7 @@ void run_controller(const RunSetup& setup, hal::Clock& clock, ControlCycle& cycl
         cycle.run_once(events);
         const std::int64_t took_ns = setup.stopwatch->now_ns() - begin_ns;
         report.computing.add(took_ns);
+        report.computed_ns = took_ns;
         report.beyond_plan += took_ns > setup.compute_ns ? 1 : 0;
         ++cycles;
         const Mode mode = cycle.record().mode;

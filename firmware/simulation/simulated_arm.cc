@@ -15,20 +15,12 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-/// Turns poses H_WM of the mesh in the scene into poses H_RT of the tool frame in the room.
-std::vector<Pose> in_room(const std::vector<Pose>& path, const Placement& placement) {
-  const Pose& H_WR = placement.mapping.H_WR;
-  const Pose H_MT = placement.H_TM.inverse();
-  std::vector<Pose> room;
-  room.reserve(path.size());
-  for (const Pose& H_WM : path) {
-    Pose H_RM;
-    const Vector3 p_RM_W = H_WM.translation - H_WR.translation;
-    H_RM.translation = H_WR.rotation.conjugate()._transformVector(p_RM_W) / placement.mapping.scale;
-    H_RM.rotation = (H_WR.rotation.conjugate() * H_WM.rotation).normalized();
-    room.push_back(H_RM * H_MT);
-  }
-  return room;
+/// Turns a pose H_WM of the mesh in the scene into its pose H_RM in the room.
+Pose in_room(const Pose& H_WM, const WorkspaceMappingParameters& mapping) {
+  const Pose& H_WR = mapping.H_WR;
+  const Vector3 p_RM_W = H_WM.translation - H_WR.translation;
+  return {(H_WR.rotation.conjugate() * H_WM.rotation).normalized(),
+          H_WR.rotation.conjugate()._transformVector(p_RM_W) / mapping.scale};
 }
 
 /// The path in `slower` times its duration, still 1 ms a pose.
@@ -57,7 +49,8 @@ std::vector<Pose> read_path(const ControllerConfig& config, const Placement& pla
                                                     config.simulation.path.string()));
     }
   }
-  path = in_room(path, placement);
+  const Pose H_MT = placement.H_TM.inverse();
+  for (Pose& pose : path) pose = in_room(pose, placement.mapping) * H_MT;
   // tolerances chosen: across them the hand's spring (300 N/m, 3 Nm/rad) pulls with 3 N and 0.15 Nm
   const double gap = (path.front().translation - rest.translation).norm();
   if (gap > 0.01 || path.front().rotation.angularDistance(rest.rotation) > 0.05) {
@@ -78,9 +71,22 @@ sim::HandParameters hand() {
 }  // namespace
 
 SimulatedArm::SimulatedArm(const ControllerConfig& config, const Placement& placement)
-    : path_(read_path(config, placement)),
+    : mapping_(placement.mapping),
+      H_MT_(placement.H_TM.inverse()),
+      path_(read_path(config, placement)),
       hardware_(sim::usual_hardware(config.device.model)),
       plant_(config.device.model, config.workspace.posture, JointVector::Zero(),
              sim::OperatorHand(hand(), path_, std::llround(1e9 * config.simulation.begin))) {}
+
+void SimulatedArm::steer_hand(const Pose& H_WM, const Motion& velocity_W) noexcept {
+  const Pose H_RM = in_room(H_WM, mapping_);
+  const Quaternion R_RW = mapping_.H_WR.rotation.conjugate();
+  sim::BodyState target{H_RM * H_MT_, {}};
+  target.velocity.rotation = R_RW._transformVector(velocity_W.rotation);
+  const Vector3 p_MT_R = target.pose.translation - H_RM.translation;
+  target.velocity.translation =
+      R_RW._transformVector(velocity_W.translation) / mapping_.scale + target.velocity.rotation.cross(p_MT_R);
+  plant_.steer_hand(target);
+}
 
 }  // namespace godobject::firmware

@@ -23,6 +23,10 @@ class SimulatedArm {
   SimulatedArm& operator=(const SimulatedArm&) = delete;
 
   sim::Plant& plant() noexcept { return plant_; }
+
+  /// The hand pulls the moving mesh to H_WM in the scene, with this velocity of the mesh's origin in the scene, from
+  /// now on and in place of simulation.path.
+  void steer_hand(const Pose& H_WM, const Motion& velocity_W) noexcept;
   std::span<const sim::JointHardwareParameters> hardware() const noexcept { return hardware_; }
 
   int joint_count() const noexcept { return plant_.joint_count(); }
@@ -31,6 +35,8 @@ class SimulatedArm {
   double hand_work() const noexcept { return plant_.work().hand.sum(); }  ///< work on the tool since the start [J]
 
  private:
+  WorkspaceMappingParameters mapping_;
+  Pose H_MT_;               // T: the tool frame of the device file
   std::vector<Pose> path_;  // H_RT of the tool frame of the device file, 1 ms apart
   std::array<sim::JointHardwareParameters, kMaxJoints> hardware_;
   sim::Plant plant_;

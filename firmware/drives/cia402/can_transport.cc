@@ -36,7 +36,7 @@ class SimulatedBuses final : public CanTransport {
   }
 
   bool real_time() const noexcept override { return real_time_; }
-  const SimulatedArm* simulated_arm() const noexcept override { return &arm_; }
+  SimulatedArm* simulated_arm() noexcept override { return &arm_; }
   std::unique_ptr<hal::Clock> make_clock() override {
     if (real_time_) return std::make_unique<PacedClock>(*device_);
     return std::make_unique<sim::VirtualClock>(*device_);
@@ -59,7 +59,7 @@ class MachineBuses final : public CanTransport {
   }
 
   bool real_time() const noexcept override { return true; }
-  const SimulatedArm* simulated_arm() const noexcept override { return nullptr; }
+  SimulatedArm* simulated_arm() noexcept override { return nullptr; }
   std::unique_ptr<hal::Clock> make_clock() override { return std::make_unique<hal::MonotonicClock>(); }
 
  private:

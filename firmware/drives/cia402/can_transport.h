@@ -21,7 +21,7 @@ class CanTransport {
 
   /// As `DriveLink::real_time`, `simulated_arm` and `make_clock`.
   virtual bool real_time() const noexcept = 0;
-  virtual const SimulatedArm* simulated_arm() const noexcept = 0;
+  virtual SimulatedArm* simulated_arm() noexcept = 0;
   virtual std::unique_ptr<hal::Clock> make_clock() = 0;
 
   const std::vector<hal::CanBus*>& buses() const noexcept { return buses_; }       ///< bus 0 first

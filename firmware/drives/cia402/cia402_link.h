@@ -17,7 +17,7 @@ class Cia402Link final : public DriveLink {
   Cia402Link(const LinkRequest& request, const hal::BusLayout& layout, const hal::BusTiming& timing);
 
   hal::JointDrives& drives() noexcept override { return drives_; }
-  const SimulatedArm* simulated_arm() const noexcept override { return transport_->simulated_arm(); }
+  SimulatedArm* simulated_arm() noexcept override { return transport_->simulated_arm(); }
   bool real_time() const noexcept override { return transport_->real_time(); }
   std::unique_ptr<hal::Clock> make_clock() override { return transport_->make_clock(); }
   const std::vector<std::string>& bus_names() const noexcept override { return transport_->names(); }
