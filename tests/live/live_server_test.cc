@@ -1,0 +1,197 @@
+#include "toolchain/live/live_server.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tests/live/page_client.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/live/request.h"
+
+namespace godobject::live::live_server_test {
+namespace {
+
+/// A server on a thread of its own. It answers "hello" and publishes the number of its tick.
+class LiveServerTest : public testing::Test {
+ protected:
+  LiveServerTest() {
+    server_.emplace(
+        LiveServer::Setup{
+            .address = "127.0.0.1", .port = 0, .page = "<p>@HOST@</p>" + std::string(200'000, 'x'), .token = "secret"},
+        LiveServer::Handlers{[this](ViewerNumber, std::string_view message) {
+                               ++received_;
+                               return message == "hello" ? std::string("hello, too") : std::string();
+                             },
+                             [this](ViewerNumber) { ++left_; }});
+    thread_ = std::jthread([this] { server_->run(1000, [this] { return tick(); }); });
+  }
+  ~LiveServerTest() override { stop(); }
+
+  bool tick() {
+    ++ticks_;
+    viewers_ = server_->viewers();
+    const auto text = [this](ViewerNumber) { return fmt::format("{:{}}", ticks_.load(), width_.load()); };
+    if (publishes_) server_->publish(text);
+    return !end_;
+  }
+
+  /// Ends the server, which closes all connections.
+  void stop() {
+    end_ = true;
+    if (thread_.joinable()) thread_.join();
+    server_.reset();
+  }
+
+  int port() const { return server_->port(); }
+
+  /// Waits until the server has done `count` more ticks.
+  void wait_ticks(int count) const {
+    const int until = ticks_ + count;
+    while (ticks_ < until) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+  std::atomic<int> ticks_{0}, received_{0}, left_{0};
+  std::atomic<std::size_t> viewers_{0};
+  std::atomic<int> width_{1};
+  std::atomic<bool> publishes_{false}, end_{false};
+  std::optional<LiveServer> server_;
+  std::jthread thread_;
+};
+
+TEST_F(LiveServerTest, GivesThePageToWhoHasTheToken) {
+  PageClient client(port());
+  ASSERT_TRUE(client.connected());
+  const std::string head = client.get("/?token=secret", "Connection: close\r\n");
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
+  for (const char* line : {"content-type: text/html", "cache-control: no-store", "referrer-policy: no-referrer",
+                           "x-frame-options: DENY", "x-content-type-options: nosniff"}) {
+    EXPECT_NE(head.find(line), std::string::npos) << line << " is not in " << head;
+  }
+  const std::string page = "<p>127.0.0.1:1</p>" + std::string(200'000, 'x');
+  EXPECT_EQ(client.drain(page.size()), page.size());
+}
+
+TEST_F(LiveServerTest, GivesNothingToOthers) {
+  for (const char* path : {"/", "/?token=", "/?token=Secret", "/?token=secret2", "/?token=secre", "/?x=secret"}) {
+    PageClient client(port());
+    EXPECT_TRUE(client.get(path).starts_with("HTTP/1.1 403")) << path;
+  }
+  for (const char* path : {"/index.html?token=secret", "/../etc/passwd?token=secret", "/socket?token=secret"}) {
+    PageClient client(port());
+    const std::string head = client.get(path);
+    EXPECT_FALSE(head.starts_with("HTTP/1.1 2")) << path << ": " << head;
+  }
+}
+
+TEST_F(LiveServerTest, OpensASocketOnlyWithTokenAndOwnOrigin) {
+  EXPECT_EQ(PageClient(port()).open("secret"), "HTTP/1.1 101 Switching Protocols");
+  EXPECT_NE(PageClient(port()).open("guess"), "HTTP/1.1 101 Switching Protocols");
+  EXPECT_NE(PageClient(port()).open(""), "HTTP/1.1 101 Switching Protocols");
+  EXPECT_NE(PageClient(port()).open("secret", "http://evil.example"), "HTTP/1.1 101 Switching Protocols");
+  EXPECT_NE(PageClient(port()).open("secret", "null"), "HTTP/1.1 101 Switching Protocols");
+  EXPECT_EQ(received_, 0);
+}
+
+TEST_F(LiveServerTest, AnswersOneViewerAndShowsStatesToAll) {
+  PageClient a(port());
+  PageClient b(port());
+  ASSERT_EQ(a.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  ASSERT_EQ(b.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  a.say("hello");
+  EXPECT_EQ(a.hear(), "hello, too");
+  a.say("hel", false);
+  a.say("lo", true, 0);
+  EXPECT_EQ(a.hear(), "hello, too") << "a message in two pieces";
+  publishes_ = true;
+  const int first = std::stoi(b.hear());
+  EXPECT_GT(std::stoi(b.hear()), first);
+  EXPECT_GT(std::stoi(a.hear()), 0);
+}
+
+TEST_F(LiveServerTest, ClosesAViewerThatSendsTooMuchOrBinary) {
+  PageClient big(port());
+  ASSERT_EQ(big.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  big.say(std::string(kLongestMessage + 1, 'x'));
+  EXPECT_EQ(big.hear(), "");
+  PageClient binary(port());
+  ASSERT_EQ(binary.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  binary.say("hello", true, 2);
+  EXPECT_EQ(binary.hear(), "");
+  PageClient pieces(port());
+  ASSERT_EQ(pieces.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  pieces.say("x", false);
+  for (int i = 0; i < 5; ++i) pieces.say(std::string(1000, 'x'), false, 0);
+  EXPECT_EQ(pieces.hear(), "");
+  EXPECT_EQ(received_, 0);
+  wait_ticks(5);
+  EXPECT_EQ(viewers_, 0u);
+  EXPECT_EQ(left_, 3);
+}
+
+TEST_F(LiveServerTest, HasRoomForEightViewers) {
+  std::vector<std::unique_ptr<PageClient>> clients;
+  for (std::size_t i = 0; i < LiveServer::kMostViewers; ++i) {
+    clients.push_back(std::make_unique<PageClient>(port()));
+    ASSERT_EQ(clients.back()->open("secret"), "HTTP/1.1 101 Switching Protocols");
+  }
+  EXPECT_NE(PageClient(port()).open("secret"), "HTTP/1.1 101 Switching Protocols");
+  clients.pop_back();
+  while (viewers_ == LiveServer::kMostViewers) wait_ticks(1);
+  EXPECT_EQ(PageClient(port()).open("secret"), "HTTP/1.1 101 Switching Protocols");
+}
+
+/// A viewer that reads nothing neither delays the ticks nor the other viewer, and memory does not grow with it: after
+/// it reads again, it gets far fewer states than there were.
+TEST_F(LiveServerTest, DoesNotWaitForAStalledViewer) {
+  width_ = 50'000;
+  PageClient stalled(port());
+  PageClient other(port());
+  ASSERT_EQ(stalled.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  ASSERT_EQ(other.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  publishes_ = true;
+  const int begin = std::stoi(other.hear());
+  int last = begin;
+  while (last < begin + 600) last = std::stoi(other.hear());
+  stop();
+  EXPECT_LT(stalled.drain(), 300u * 50'000u);
+}
+
+TEST_F(LiveServerTest, SurvivesRubbish) {
+  for (const char* text :
+       {"\r\n\r\n", "GET", "POST / HTTP/1.1\r\n\r\n", "\x16\x03\x01 is TLS", "GET /?token=secret HTTP/9\r\n\r\n",
+        "GET /?token=%00%ff%zz HTTP/1.1\r\nHost: \xff\r\n\r\n"}) {
+    PageClient client(port());
+    client.send(text);
+  }
+  PageClient client(port());
+  EXPECT_EQ(client.open("secret"), "HTTP/1.1 101 Switching Protocols");
+}
+
+TEST(LiveServerStart, NamesACureIfThePortIsTaken) {
+  const LiveServer first({.address = "127.0.0.1", .port = 0, .page = "", .token = "a"}, {});
+  try {
+    const LiveServer second({.address = "127.0.0.1", .port = first.port(), .page = "", .token = "a"}, {});
+    ADD_FAILURE() << "two servers on one port";
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kUnavailable);
+    EXPECT_NE(std::string(failure.what()).find("--port"), std::string::npos);
+  }
+}
+
+TEST(MakeToken, IsAnotherOneEachTime) {
+  std::set<std::string> tokens;
+  for (int i = 0; i < 100; ++i) tokens.insert(make_token());
+  EXPECT_EQ(tokens.size(), 100u);
+  EXPECT_EQ(tokens.begin()->size(), 32u);
+}
+
+}  // namespace
+}  // namespace godobject::live::live_server_test

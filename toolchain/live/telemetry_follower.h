@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware/configuration/scene_file.h"
+#include "toolchain/live/live_source.h"
+
+namespace godobject::live {
+
+/// A controller in another process, through the telemetry.csv that a thread of it writes: whoever looks takes nothing
+/// from the loop. A new run of the controller, which overwrites the file, is followed, too. Only looks.
+class TelemetryFollower final : public LiveSource {
+ public:
+  /// `config`: of the controller, whose telemetry.folder has the file. Throws command::Failure if scene or gains cannot
+  /// be read. The file need not exist yet.
+  explicit TelemetryFollower(const firmware::ControllerConfig& config);
+
+  const SceneView& scene() const override { return scene_; }
+  const firmware::Placement& placement() const override { return placement_; }
+  void take(std::vector<LiveSample>& samples) override;
+  std::optional<LiveSettings> settings() const override { return {}; }
+  double speed() const override { return speed_; }
+  std::uint64_t lost() const override { return skipped_; }
+  std::string failure() const override { return ""; }
+  std::string answer(const Request& request) override;
+
+ private:
+  bool is_another_file() const;
+  void open();
+  void read_line(std::string_view line, std::vector<LiveSample>& samples);
+  void measure_speed(const std::vector<LiveSample>& samples);
+
+  const std::filesystem::path file_;
+  const firmware::SceneFile image_;
+  const SceneView scene_;
+  const firmware::Placement placement_;
+  std::ifstream stream_;
+  std::uint64_t inode_ = 0;
+  std::size_t read_ = 0;              ///< bytes
+  std::string rest_;                  ///< of a line that is not complete yet
+  std::vector<std::string> columns_;  ///< names; empty before the first line
+  std::uint64_t skipped_ = 0;         ///< lines that are no row
+  double speed_ = 0.0;
+  double mark_ = 0.0;  ///< time of the controller [s] at `wall_mark_ns_`
+  std::int64_t wall_mark_ns_ = 0;
+};
+
+/// Reads a row of a telemetry.csv with these column names. Returns false if it has another number of fields, or if
+/// a field has no number where one belongs. Columns that are missing stay zero.
+bool read_telemetry_row(std::string_view line, const std::vector<std::string>& columns, LiveSample& sample);
+
+}  // namespace godobject::live
