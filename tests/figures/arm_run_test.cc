@@ -126,9 +126,10 @@ TEST(ArmRun, WantsTheDeviceFileOfItsArm) {
   const auto folder = std::filesystem::path(testing::TempDir()) / ("arm_run_test_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "telemetry.csv")
-      << "t_s,mode,fault,share,outcome,contacts,torque1_Nm,dpx_m,dpy_m,dpz_m,dqw,dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,"
-         "gqy,gqz,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m\n"
-      << "0,boot,0,0,free,0,1,0,0,0,1,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0\n";
+      << "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,q1_rad,qd1_rad_s,torque1_Nm,dpx_m,dpy_m,dpz_m,dqw,"
+         "dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,"
+         "gqy,gqz,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J\n"
+      << "0,0,0,boot,0,0,free,0,0,0,1,0,0,0,1,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0\n";
   std::ofstream(folder / "hand.csv") << "t_s,hand_J\n0,0\n";
   std::ofstream(folder / "arm.toml") << "[[joint]]\ntorque = 7.5\n";
   EXPECT_EQ(read_arm_log(folder, folder / "arm.toml").torque_limits, std::vector<double>{7.5});

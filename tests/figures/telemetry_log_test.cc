@@ -19,11 +19,12 @@ using command::Failure;
 const std::string kHeader =
     "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost,q1_rad,q2_rad,qd1_rad_s,qd2_rad_s,torque1_Nm,"
     "torque2_Nm,dpx_m,dpy_m,dpz_m,dqw,dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,gqy,gqz,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,"
-    "depth_m\n";
+    "depth_m,absorbed_J\n";
 const std::string kBoot =
-    "0.000000,0,0,boot,0,0,free,0,0,0,0,0,0,5,-6,1,2,3,1,0,0,0,1,2,3,1,0,0,0,0,0,0,0,0,0,-0.006\n";
+    "0.000000,0,0,boot,0,0,free,0,0,0,0,0,0,5,-6,1,2,3,1,0,0,0,1,2,3,1,0,0,0,0,0,0,0,0,0,-0.006,0\n";
 const std::string kRunning =
-    "0.001000,0,0,running,0,0.5,contact,7,0,0,0,0,0,5.5,-6.5,1,2,3,1,0,0,0,4,5,6,0,1,0,0,3,4,0,0,0,2,-0.00002\n";
+    "0.001000,2,40,running,0,0.5,contact,7,0,0.25,-0.5,1.25,-1.5,5.5,-6.5,1,2,3,1,0,0,0,4,5,6,0,1,0,0,3,4,0,0,0,2,"
+    "-0.00002,0.75\n";
 
 class TelemetryLogFile : public testing::Test {
  protected:
@@ -57,6 +58,12 @@ TEST_F(TelemetryLogFile, IsReadByTheNamesOfItsColumns) {
   EXPECT_EQ(log[0].torque, (std::vector<double>{5.0, -6.0}));
   const TelemetryRow& row = log[1];
   EXPECT_EQ(row.cycle.t, 0.001);
+  EXPECT_DOUBLE_EQ(row.late, 2e-6);
+  EXPECT_DOUBLE_EQ(row.compute, 40e-6);
+  EXPECT_EQ(row.absorbed, 0.75);
+  EXPECT_EQ(row.position, (std::vector<double>{0.25, -0.5}));
+  EXPECT_EQ(row.velocity, (std::vector<double>{1.25, -1.5}));
+  EXPECT_EQ(row.torque, (std::vector<double>{5.5, -6.5}));
   EXPECT_EQ(row.share, 0.5);
   EXPECT_EQ(row.fault, 0);
   EXPECT_EQ(row.cycle.status, "contact");
@@ -80,7 +87,7 @@ TEST_F(TelemetryLogFile, IsAReplayOfTheCyclesThatRendered) {
 TEST_F(TelemetryLogFile, NamesWhatIsWrong) {
   expect_refused("", "is empty");
   expect_refused(kHeader, "holds no cycle");
-  expect_refused(kHeader + kBoot + "0.001,1,2\n", ":3: has 3 fields, not 36");
+  expect_refused(kHeader + kBoot + "0.001,1,2\n", ":3: has 3 fields, not 37");
   expect_refused(kHeader + kRunning + kBoot, ":3: t_s does not increase");
   std::string text = kHeader + kBoot;
   text.replace(text.find("-0.006"), 6, "nan");

@@ -36,9 +36,11 @@ class Columns {
     for (std::size_t i = 0; i < kNumbers.size(); ++i) numbers_[i] = place(kNumbers[i]);
     mode_ = place("mode");
     outcome_ = place("outcome");
-    for (std::size_t joint = 1; has(fmt::format("torque{}_Nm", joint)); ++joint)
+    for (std::size_t joint = 1; joint == 1 || has(fmt::format("torque{}_Nm", joint)); ++joint) {
+      positions_.push_back(place(fmt::format("q{}_rad", joint)));
+      velocities_.push_back(place(fmt::format("qd{}_rad_s", joint)));
       torques_.push_back(place(fmt::format("torque{}_Nm", joint)));
-    if (torques_.empty()) lines_.refuse("has no column torque1_Nm; make it again with godobject-controller");
+    }
   }
 
   TelemetryRow row(std::string_view line) {
@@ -59,15 +61,20 @@ class Columns {
     row.cycle.H_WS = pose(&v[18]);
     row.cycle.status = fields_[outcome_];
     row.mode = fields_[mode_];
-    for (const std::size_t place : torques_) row.torque.push_back(number(place));
+    row.late = 1e-6 * v[25];
+    row.compute = 1e-6 * v[26];
+    row.absorbed = v[27];
+    row.position = numbers(positions_);
+    row.velocity = numbers(velocities_);
+    row.torque = numbers(torques_);
     return row;
   }
 
  private:
-  static constexpr std::array<std::string_view, 25> kNumbers = {
-      "t_s",   "fault", "share", "contacts", "depth_m", "fx_N", "fy_N", "fz_N", "tx_Nm",
-      "ty_Nm", "tz_Nm", "dpx_m", "dpy_m",    "dpz_m",   "dqw",  "dqx",  "dqy",  "dqz",
-      "gpx_m", "gpy_m", "gpz_m", "gqw",      "gqx",     "gqy",  "gqz"};
+  static constexpr std::array<std::string_view, 28> kNumbers = {
+      "t_s",   "fault", "share", "contacts", "depth_m", "fx_N",    "fy_N",       "fz_N",      "tx_Nm", "ty_Nm",
+      "tz_Nm", "dpx_m", "dpy_m", "dpz_m",    "dqw",     "dqx",     "dqy",        "dqz",       "gpx_m", "gpy_m",
+      "gpz_m", "gqw",   "gqx",   "gqy",      "gqz",     "late_us", "compute_us", "absorbed_J"};
 
   static Pose pose(const double* v) { return {Quaternion(v[3], v[4], v[5], v[6]), Vector3(v[0], v[1], v[2])}; }
 
@@ -85,16 +92,29 @@ class Columns {
     return value;
   }
 
+  std::vector<double> numbers(const std::vector<std::size_t>& places) const {
+    std::vector<double> values;
+    values.reserve(places.size());
+    for (const std::size_t place : places) values.push_back(number(place));
+    return values;
+  }
+
   const CsvLines& lines_;
   std::vector<std::string> names_;
   std::array<std::size_t, kNumbers.size()> numbers_{};
   std::size_t mode_ = 0;
   std::size_t outcome_ = 0;
-  std::vector<std::size_t> torques_;
+  std::vector<std::size_t> positions_, velocities_, torques_;  ///< of the joints
   std::vector<std::string_view> fields_;
 };
 
 }  // namespace
+
+bool is_telemetry(const std::filesystem::path& file) {
+  CsvLines lines(file);
+  std::string_view line;
+  return lines.next(line) && line.starts_with(kTelemetryBegin);
+}
 
 TelemetryLog read_telemetry_log(const std::filesystem::path& file) {
   CsvLines lines(file);
