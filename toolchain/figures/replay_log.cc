@@ -114,6 +114,17 @@ const ReplayRow& row_at(const ReplayLog& log, double t, const std::filesystem::p
   });
 }
 
+std::vector<Pose> device_poses(const ReplayLog& log) {
+  std::vector<Pose> poses;
+  Pose last = log.front().H_WS;
+  for (const ReplayRow& row : log) {
+    const bool is_pose = row.H_WD.is_finite() && std::abs(row.H_WD.rotation.norm() - 1.0) < 1e-3;
+    if (is_pose) last = row.H_WD;
+    poses.push_back(last);
+  }
+  return poses;
+}
+
 const ReplayRow& deepest_row(const ReplayLog& log) {
   return *std::max_element(log.begin(), log.end(),
                            [](const ReplayRow& a, const ReplayRow& b) { return a.depth < b.depth; });

@@ -33,6 +33,10 @@ ReplayLog read_replay_log(const std::filesystem::path& file);
 /// outside the log.
 const ReplayRow& row_at(const ReplayLog& log, double t, const std::filesystem::path& file);
 
+/// Returns the device pose of each row. A row that is no pose repeats the pose before it; the first one, that of the
+/// god object. `log`: not empty.
+std::vector<Pose> device_poses(const ReplayLog& log);
+
 /// Returns the first row in which the god object is deepest.
 const ReplayRow& deepest_row(const ReplayLog& log);
 

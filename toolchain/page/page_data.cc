@@ -55,18 +55,6 @@ void require_same_motion(const std::vector<NamedReplay>& replays) {
   }
 }
 
-/// The device poses of a log. A row that is no pose repeats the pose before it.
-std::vector<Pose> device_poses(const ReplayLog& log) {
-  std::vector<Pose> poses;
-  Pose last = log.front().H_WS;
-  for (const ReplayRow& row : log) {
-    const bool is_pose = row.H_WD.is_finite() && std::abs(row.H_WD.rotation.norm() - 1.0) < 1e-3;
-    if (is_pose) last = row.H_WD;
-    poses.push_back(last);
-  }
-  return poses;
-}
-
 /// Writes the columns of a scene's replays.
 class ReplayColumns {
  public:
@@ -74,7 +62,7 @@ class ReplayColumns {
       : replays_(replays),
         p_M_(p_M),
         pack_(pack),
-        device_(device_poses(replays.front().log)),
+        device_(figures::device_poses(replays.front().log)),
         thinning_(device_.size()) {}
 
   /// Sets the keys of the header that belong to the replays.
@@ -171,7 +159,7 @@ std::vector<std::size_t> held_cycles(const ReplayLog& log) {
 std::vector<viewer::Placement> shown_placements(const std::vector<NamedReplay>& replays) {
   constexpr std::size_t kOfEach = 12;
   const ReplayLog& first = replays.front().log;
-  const std::vector<Pose> device = device_poses(first);
+  const std::vector<Pose> device = figures::device_poses(first);
   const auto weaker = [](const ReplayRow& a, const ReplayRow& b) {
     return a.wrench.force.squaredNorm() < b.wrench.force.squaredNorm();
   };

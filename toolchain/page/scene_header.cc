@@ -10,7 +10,6 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/mesh/mass_properties.h"
 #include "toolchain/scene_compiler/mesh/mesh_edges.h"
-#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 #include "toolchain/scene_compiler/scene_config.h"
 
 namespace godobject::page {
@@ -24,23 +23,6 @@ using scene_compiler::TriangleMesh;
 constexpr double kQuantisation = 65535;  // steps along an edge of a mesh's bounding box
 
 json array_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
-/// Returns the centre of mass of the enclosed volume; of an open mesh, that of its surface. In the mesh's frame [m].
-Vector3 centre_of_mass(const TriangleMesh& mesh, bool closed) {
-  if (closed) {
-    const auto moments = scene_compiler::moments_of_volume(mesh);
-    if (moments.volume > 0.0) return moments.center;
-  }
-  Vector3 sum = Vector3::Zero();
-  double area = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vector3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
-    const double part = scene_compiler::triangle_area(p, q, r);
-    sum += part * (p + q + r) / 3.0;
-    area += part;
-  }
-  return sum / area;
-}
 
 /// Returns the entry of a body in the header.
 json body_entry(const TriangleMesh& mesh, const std::string& name, ColumnPack& pack) {
@@ -67,7 +49,7 @@ json body_entry(const TriangleMesh& mesh, const std::string& name, ColumnPack& p
   entry["triangles"] = pack.add(corners);
   const bool closed = scene_compiler::MeshEdges(mesh).closed();
   entry["closed"] = closed;
-  entry["centre"] = array_of(centre_of_mass(mesh, closed));
+  entry["centre"] = array_of(scene_compiler::centre_of_mass(mesh, closed));
   return entry;
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "toolchain/scene_compiler/mesh/box.h"
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -72,6 +73,22 @@ MassMoments moments_of_volume(const TriangleMesh& closed_mesh) {
   moments.center = reference + offset;
   moments.inertia = inertia_of_covariance(second / volume - offset * offset.transpose());
   return moments;
+}
+
+Vector3d centre_of_mass(const TriangleMesh& mesh, bool closed) {
+  if (closed) {
+    const MassMoments moments = moments_of_volume(mesh);
+    if (moments.volume > 0.0) return moments.center;
+  }
+  Vector3d sum = Vector3d::Zero();
+  double area = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3d &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+    const double part = triangle_area(p, q, r);
+    sum += part * (p + q + r) / 3.0;
+    area += part;
+  }
+  return sum / area;
 }
 
 MassMoments moments_of_points(std::span<const Vector3d> points) {

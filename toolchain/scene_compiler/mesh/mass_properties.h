@@ -25,6 +25,10 @@ struct PrincipalAxes {
 /// up. If the components enclose no positive volume, `volume` is 0 and the other members have no meaning.
 MassMoments moments_of_volume(const TriangleMesh& closed_mesh);
 
+/// Returns the centre of mass of the enclosed volume; of an open mesh, that of its surface. In the mesh's frame [m].
+/// `closed`: as MeshEdges::closed tells.
+Eigen::Vector3d centre_of_mass(const TriangleMesh& mesh, bool closed);
+
 /// Returns the moments of equal masses at the points (at least one).
 MassMoments moments_of_points(std::span<const Eigen::Vector3d> points);
 
