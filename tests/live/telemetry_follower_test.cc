@@ -7,19 +7,23 @@
 
 #include <fmt/format.h>
 
+#include "firmware/cycle/fault.h"
 #include "tests/live/live_scene.h"
 #include "tests/support/folder_test.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::live::telemetry_follower_test {
 namespace {
 
 const char* const kHeader =
-    "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost,q1_rad,q2_rad,qd1_rad_s,torque1_Nm,dpx_m,dpy_m,"
+    "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost,q1_rad,q2_rad,qd1_rad_s,qd2_rad_s,torque1_Nm,"
+    "torque2_Nm,dpx_m,dpy_m,"
     "dpz_m,dqw,dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,gqy,gqz,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J\n";
 
 std::string row(double t) {
   return fmt::format(
-      "{:.6f},3,25,running,0,1,contact,4,0,0.5,-0.25,9,8,1,2,3,1,0,0,0,4,5,6,0.5,0.5,0.5,0.5,7,8,9,0.1,0.2,0.3,-1e-5,"
+      "{:.6f},3,25,running,0,1,contact,4,0,0.5,-0.25,9,9,8,8,1,2,3,1,0,0,0,4,5,6,0.5,0.5,0.5,0.5,7,8,9,0.1,0.2,0.3,-1e-"
+      "5,"
       "0.01\n",
       t);
 }
@@ -124,13 +128,28 @@ TEST_F(TelemetryFollowerTest, CountsLinesThatAreNoRow) {
 }
 
 TEST_F(TelemetryFollowerTest, DescribesFaults) {
-  LiveSample sample;
-  EXPECT_TRUE(read_telemetry_row("17", {"fault"}, sample));
-  EXPECT_NE(sample.fault, "");
-  EXPECT_TRUE(read_telemetry_row("0", {"fault"}, sample));
-  EXPECT_EQ(sample.fault, "");
-  EXPECT_TRUE(read_telemetry_row("9999", {"fault"}, sample)) << "a fault of a later version";
-  EXPECT_FALSE(read_telemetry_row("x", {"fault"}, sample));
+  std::string stopped = row(0.002);
+  stopped.replace(stopped.find(",0,1,contact"), 2, ",17");
+  std::string unknown = row(0.003);
+  unknown.replace(unknown.find(",0,1,contact"), 2, ",9999");  // of a later version
+  append(kHeader + row(0.001) + stopped + unknown);
+  std::vector<LiveSample> samples;
+  follower_->take(samples);
+  ASSERT_EQ(samples.size(), 3u);
+  EXPECT_EQ(samples[0].fault, "");
+  EXPECT_EQ(samples[1].fault, describe(static_cast<firmware::Fault>(17)));
+  EXPECT_EQ(samples[2].fault, "");
+}
+
+TEST_F(TelemetryFollowerTest, RefusesAFileThatIsNoTelemetry) {
+  append("a,b\n1,2\n");
+  try {
+    times();
+    ADD_FAILURE() << "a file with other columns is followed";
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
+    EXPECT_NE(std::string(failure.what()).find("telemetry.csv:1: has no column t_s"), std::string::npos);
+  }
 }
 
 TEST_F(TelemetryFollowerTest, OnlyLooks) { EXPECT_NE(follower_->answer(ResetRequest{}), ""); }

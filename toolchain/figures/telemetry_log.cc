@@ -26,89 +26,77 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
-/// The places of the used columns.
-class Columns {
- public:
-  Columns(const CsvLines& lines, std::string_view header) : lines_(lines) {
-    std::vector<std::string_view> fields;
-    split(header, fields);
-    names_.assign(fields.begin(), fields.end());
-    for (std::size_t i = 0; i < kNumbers.size(); ++i) numbers_[i] = place(kNumbers[i]);
-    mode_ = place("mode");
-    outcome_ = place("outcome");
-    for (std::size_t joint = 1; joint == 1 || has(fmt::format("torque{}_Nm", joint)); ++joint) {
-      positions_.push_back(place(fmt::format("q{}_rad", joint)));
-      velocities_.push_back(place(fmt::format("qd{}_rad_s", joint)));
-      torques_.push_back(place(fmt::format("torque{}_Nm", joint)));
-    }
+Pose pose_of(const double* v) { return {Quaternion(v[3], v[4], v[5], v[6]), Vector3(v[0], v[1], v[2])}; }
+
+constexpr std::array<std::string_view, 28> kNumbers = {
+    "t_s",   "fault", "share", "contacts", "depth_m", "fx_N",    "fy_N",       "fz_N",      "tx_Nm", "ty_Nm",
+    "tz_Nm", "dpx_m", "dpy_m", "dpz_m",    "dqw",     "dqx",     "dqy",        "dqz",       "gpx_m", "gpy_m",
+    "gpz_m", "gqw",   "gqx",   "gqy",      "gqz",     "late_us", "compute_us", "absorbed_J"};
+
+}  // namespace
+
+TelemetryColumns::TelemetryColumns(std::string_view header) {
+  std::vector<std::string_view> fields;
+  split(header, fields);
+  names_.assign(fields.begin(), fields.end());
+  for (const std::string_view name : kNumbers) numbers_.push_back(place(name));
+  mode_ = place("mode");
+  outcome_ = place("outcome");
+  for (std::size_t joint = 1; joint == 1 || has(fmt::format("torque{}_Nm", joint)); ++joint) {
+    positions_.push_back(place(fmt::format("q{}_rad", joint)));
+    velocities_.push_back(place(fmt::format("qd{}_rad_s", joint)));
+    torques_.push_back(place(fmt::format("torque{}_Nm", joint)));
   }
+}
 
-  TelemetryRow row(std::string_view line) {
-    split(line, fields_);
-    if (fields_.size() != names_.size())
-      lines_.refuse(
-          fmt::format("has {} fields, not {}; make it again with godobject-controller", fields_.size(), names_.size()));
-    std::array<double, kNumbers.size()> v{};
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = number(numbers_[i]);
-    TelemetryRow row;
-    row.cycle.t = v[0];
-    row.fault = static_cast<int>(v[1]);
-    row.share = v[2];
-    row.cycle.contacts = v[3];
-    row.cycle.depth = v[4];
-    row.cycle.wrench = {Vector3(v[5], v[6], v[7]), Vector3(v[8], v[9], v[10])};
-    row.cycle.H_WD = pose(&v[11]);
-    row.cycle.H_WS = pose(&v[18]);
-    row.cycle.status = fields_[outcome_];
-    row.mode = fields_[mode_];
-    row.late = 1e-6 * v[25];
-    row.compute = 1e-6 * v[26];
-    row.absorbed = v[27];
-    row.position = numbers(positions_);
-    row.velocity = numbers(velocities_);
-    row.torque = numbers(torques_);
-    return row;
-  }
-
- private:
-  static constexpr std::array<std::string_view, 28> kNumbers = {
-      "t_s",   "fault", "share", "contacts", "depth_m", "fx_N",    "fy_N",       "fz_N",      "tx_Nm", "ty_Nm",
-      "tz_Nm", "dpx_m", "dpy_m", "dpz_m",    "dqw",     "dqx",     "dqy",        "dqz",       "gpx_m", "gpy_m",
-      "gpz_m", "gqw",   "gqx",   "gqy",      "gqz",     "late_us", "compute_us", "absorbed_J"};
-
-  static Pose pose(const double* v) { return {Quaternion(v[3], v[4], v[5], v[6]), Vector3(v[0], v[1], v[2])}; }
-
-  bool has(std::string_view name) const { return std::find(names_.begin(), names_.end(), name) != names_.end(); }
-
-  std::size_t place(std::string_view name) const {
-    if (!has(name)) lines_.refuse(fmt::format("has no column {}; make it again with godobject-controller", name));
-    return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
-  }
-
-  double number(std::size_t place) const {
+TelemetryRow TelemetryColumns::row(std::string_view line) const {
+  std::vector<std::string_view> fields;
+  split(line, fields);
+  if (fields.size() != names_.size())
+    throw MalformedTelemetry(
+        fmt::format("has {} fields, not {}; make it again with godobject-controller", fields.size(), names_.size()));
+  const auto number = [&](std::size_t place) {
     double value = 0.0;
-    if (!files::read_number(fields_[place], value) || !std::isfinite(value))
-      lines_.refuse(fmt::format("{} is \"{}\", no finite number", names_[place], fields_[place]));
+    if (!files::read_number(fields[place], value) || !std::isfinite(value))
+      throw MalformedTelemetry(fmt::format("{} is \"{}\", no finite number", names_[place], fields[place]));
     return value;
-  }
-
-  std::vector<double> numbers(const std::vector<std::size_t>& places) const {
+  };
+  const auto numbers = [&](const std::vector<std::size_t>& places) {
     std::vector<double> values;
     values.reserve(places.size());
     for (const std::size_t place : places) values.push_back(number(place));
     return values;
-  }
+  };
+  const std::vector<double> v = numbers(numbers_);
+  TelemetryRow row;
+  row.cycle.t = v[0];
+  row.fault = static_cast<int>(v[1]);
+  row.share = v[2];
+  row.cycle.contacts = v[3];
+  row.cycle.depth = v[4];
+  row.cycle.wrench = {Vector3(v[5], v[6], v[7]), Vector3(v[8], v[9], v[10])};
+  row.cycle.H_WD = pose_of(&v[11]);
+  row.cycle.H_WS = pose_of(&v[18]);
+  row.cycle.status = fields[outcome_];
+  row.mode = fields[mode_];
+  row.late = 1e-6 * v[25];
+  row.compute = 1e-6 * v[26];
+  row.absorbed = v[27];
+  row.position = numbers(positions_);
+  row.velocity = numbers(velocities_);
+  row.torque = numbers(torques_);
+  return row;
+}
 
-  const CsvLines& lines_;
-  std::vector<std::string> names_;
-  std::array<std::size_t, kNumbers.size()> numbers_{};
-  std::size_t mode_ = 0;
-  std::size_t outcome_ = 0;
-  std::vector<std::size_t> positions_, velocities_, torques_;  ///< of the joints
-  std::vector<std::string_view> fields_;
-};
+bool TelemetryColumns::has(std::string_view name) const {
+  return std::find(names_.begin(), names_.end(), name) != names_.end();
+}
 
-}  // namespace
+std::size_t TelemetryColumns::place(std::string_view name) const {
+  if (!has(name))
+    throw MalformedTelemetry(fmt::format("has no column {}; make it again with godobject-controller", name));
+  return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+}
 
 bool is_telemetry(const std::filesystem::path& file) {
   CsvLines lines(file);
@@ -120,11 +108,15 @@ TelemetryLog read_telemetry_log(const std::filesystem::path& file) {
   CsvLines lines(file);
   std::string_view line;
   if (!lines.next(line)) lines.refuse("is empty; make it again with godobject-controller --log");
-  Columns columns(lines, line);
   TelemetryLog log;
-  while (lines.next(line)) {
-    log.push_back(columns.row(line));
-    if (log.size() > 1 && !(log.back().cycle.t > log[log.size() - 2].cycle.t)) lines.refuse("t_s does not increase");
+  try {
+    const TelemetryColumns columns(line);
+    while (lines.next(line)) {
+      log.push_back(columns.row(line));
+      if (log.size() > 1 && !(log.back().cycle.t > log[log.size() - 2].cycle.t)) lines.refuse("t_s does not increase");
+    }
+  } catch (const MalformedTelemetry& malformed) {
+    lines.refuse(malformed.what());
   }
   if (log.empty()) lines.refuse("holds no cycle");
   return log;

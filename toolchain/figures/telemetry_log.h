@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +27,32 @@ struct TelemetryRow {
   double absorbed = 0.0;         ///< energy that the rendered torques have absorbed [J]
 };
 
+/// A line of a telemetry that is wrong; `what` is one clause without the place.
+class MalformedTelemetry : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The columns of a telemetry, by its header. They may be in any order; other columns are ignored.
+class TelemetryColumns {
+ public:
+  /// Throws MalformedTelemetry if a column is missing.
+  explicit TelemetryColumns(std::string_view header);
+
+  /// Reads a row. Throws MalformedTelemetry if it has another number of fields, or no finite number where one belongs.
+  TelemetryRow row(std::string_view line) const;
+
+ private:
+  bool has(std::string_view name) const;
+  std::size_t place(std::string_view name) const;
+
+  std::vector<std::string> names_;
+  std::vector<std::size_t> numbers_;
+  std::size_t mode_ = 0;
+  std::size_t outcome_ = 0;
+  std::vector<std::size_t> positions_, velocities_, torques_;  ///< of the joints
+};
+
 using TelemetryLog = std::vector<TelemetryRow>;
 
 /// Begin of the first line of a telemetry.
@@ -33,8 +61,8 @@ inline constexpr std::string_view kTelemetryBegin = "t_s,";
 /// Tells if a file begins as a telemetry does. Throws Failure (kNoInput) if it cannot be read.
 bool is_telemetry(const std::filesystem::path& file);
 
-/// Reads telemetry.csv of godobject-controller. The columns may be in any order; other columns are ignored. Throws
-/// Failure: kNoInput if the file cannot be read, kBadData naming the line.
+/// Reads telemetry.csv of godobject-controller. Throws Failure: kNoInput if the file cannot be read, kBadData naming
+/// the line.
 TelemetryLog read_telemetry_log(const std::filesystem::path& file);
 
 /// Returns the cycles that rendered.

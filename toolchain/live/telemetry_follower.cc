@@ -3,12 +3,13 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "firmware/cycle/fault.h"
 #include "hal/linux/monotonic_clock.h"
-#include "toolchain/files/csv_lines.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::live {
 namespace {
@@ -16,83 +17,32 @@ namespace {
 constexpr std::size_t kRead = std::size_t{1} << 18;     // at once [bytes]
 constexpr std::size_t kBacklog = std::size_t{1} << 20;  // of a longer file the begin is skipped: some seconds
 
-std::vector<std::string> fields_of(std::string_view line) {
-  std::vector<std::string> fields;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    fields.emplace_back(files::trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
+std::string fault_text(int fault) {
+  const bool known = fault > 0 && fault <= static_cast<int>(firmware::Fault::kComputedLate);
+  return known ? describe(static_cast<firmware::Fault>(fault)) : "";
 }
 
-/// The place for the number of a column; null: there is none.
-double* number_of(std::string_view column, LiveSample& sample) {
-  struct Number {
-    std::string_view name;
-    double* value;
-  };
-  const std::array numbers = {
-      Number{"t_s", &sample.t},
-      Number{"share", &sample.share},
-      Number{"contacts", &sample.contacts},
-      Number{"depth_m", &sample.depth},
-      Number{"absorbed_J", &sample.absorbed},
-      Number{"compute_us", &sample.computed},
-      Number{"late_us", &sample.late},
-      Number{"fx_N", &sample.wrench_R.force.x()},
-      Number{"fy_N", &sample.wrench_R.force.y()},
-      Number{"fz_N", &sample.wrench_R.force.z()},
-      Number{"tx_Nm", &sample.wrench_R.torque.x()},
-      Number{"ty_Nm", &sample.wrench_R.torque.y()},
-      Number{"tz_Nm", &sample.wrench_R.torque.z()},
-  };
-  for (const auto& [name, value] : numbers) {
-    if (name == column) return value;
-  }
-  if (column.size() == 6 && column.starts_with('q') && column.ends_with("_rad")) {
-    const int joint = column[1] - '1';
-    if (joint >= 0 && joint < kMaxJoints) return &sample.q[joint];
-  }
-  if (column.size() < 3 || (column.front() != 'd' && column.front() != 'g')) return nullptr;
-  Pose& pose = column.front() == 'd' ? sample.H_WD : sample.H_WS;
-  const std::string_view part = column.substr(1);
-  if (part == "px_m") return &pose.translation.x();
-  if (part == "py_m") return &pose.translation.y();
-  if (part == "pz_m") return &pose.translation.z();
-  if (part == "qw") return &pose.rotation.w();
-  if (part == "qx") return &pose.rotation.x();
-  if (part == "qy") return &pose.rotation.y();
-  if (part == "qz") return &pose.rotation.z();
-  return nullptr;
-}
-
-/// Describes the fault whose number the telemetry has.
-bool read_fault(const std::string& field, std::string& text) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-  if (error != std::errc{} || end != field.data() + field.size()) return false;
-  const bool known = number > 0 && number <= static_cast<int>(firmware::Fault::kComputedLate);
-  text = known ? describe(static_cast<firmware::Fault>(number)) : "";
-  return true;
+LiveSample sample_of(const figures::TelemetryRow& row) {
+  LiveSample sample;
+  sample.t = row.cycle.t;
+  sample.mode = row.mode;
+  sample.fault = fault_text(row.fault);
+  sample.outcome = row.cycle.status;
+  sample.share = row.share;
+  const auto joints = std::min<std::size_t>(row.position.size(), kMaxJoints);
+  for (std::size_t i = 0; i < joints; ++i) sample.q[static_cast<Eigen::Index>(i)] = row.position[i];
+  sample.H_WD = row.cycle.H_WD;
+  sample.H_WS = row.cycle.H_WS;
+  sample.wrench_R = row.cycle.wrench;
+  sample.depth = row.cycle.depth;
+  sample.contacts = row.cycle.contacts;
+  sample.computed = row.compute;
+  sample.late = row.late;
+  sample.absorbed = row.absorbed;
+  return sample;
 }
 
 }  // namespace
-
-bool read_telemetry_row(std::string_view line, const std::vector<std::string>& columns, LiveSample& sample) {
-  const std::vector<std::string> fields = fields_of(line);
-  if (fields.size() != columns.size()) return false;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (columns[i] == "mode") sample.mode = fields[i];
-    if (columns[i] == "outcome") sample.outcome = fields[i];
-    if (columns[i] == "fault" && !read_fault(fields[i], sample.fault)) return false;
-    double* number = number_of(columns[i], sample);
-    if (number != nullptr && !files::read_number(fields[i], *number)) return false;
-  }
-  sample.computed *= 1e-6;
-  sample.late *= 1e-6;
-  return true;
-}
 
 TelemetryFollower::TelemetryFollower(const firmware::ControllerConfig& config)
     : file_(config.telemetry.folder / "telemetry.csv"),
@@ -116,7 +66,11 @@ void TelemetryFollower::open() {
   std::string header;
   std::ifstream stream(file_, std::ios::binary);
   if (::stat(file_.c_str(), &status) != 0 || !std::getline(stream, header) || stream.eof()) return;
-  columns_ = fields_of(header);
+  try {
+    columns_.emplace(header);
+  } catch (const figures::MalformedTelemetry& malformed) {
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}:1: {}", file_.string(), malformed.what()));
+  }
   inode_ = status.st_ino;
   read_ = header.size() + 1;
   rest_.clear();
@@ -152,10 +106,9 @@ void TelemetryFollower::take(std::vector<LiveSample>& samples) {
 }
 
 void TelemetryFollower::read_line(std::string_view line, std::vector<LiveSample>& samples) {
-  LiveSample sample;
-  if (read_telemetry_row(line, columns_, sample)) {
-    samples.push_back(std::move(sample));
-  } else {
+  try {
+    samples.push_back(sample_of(columns_->row(line)));
+  } catch (const figures::MalformedTelemetry&) {
     ++skipped_;
   }
 }

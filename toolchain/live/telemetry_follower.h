@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "firmware/configuration/scene_file.h"
+#include "toolchain/figures/telemetry_log.h"
 #include "toolchain/live/live_source.h"
 
 namespace godobject::live {
@@ -18,7 +20,7 @@ namespace godobject::live {
 class TelemetryFollower final : public LiveSource {
  public:
   /// `config`: of the controller, whose telemetry.folder has the file. Throws command::Failure if scene or gains cannot
-  /// be read. The file need not exist yet.
+  /// be read. The file need not exist yet; `take` throws command::Failure (kBadData) if it is no telemetry.
   explicit TelemetryFollower(const firmware::ControllerConfig& config);
 
   const SceneView& scene() const override { return scene_; }
@@ -42,17 +44,13 @@ class TelemetryFollower final : public LiveSource {
   const firmware::Placement placement_;
   std::ifstream stream_;
   std::uint64_t inode_ = 0;
-  std::size_t read_ = 0;              ///< bytes
-  std::string rest_;                  ///< of a line that is not complete yet
-  std::vector<std::string> columns_;  ///< names; empty before the first line
-  std::uint64_t skipped_ = 0;         ///< lines that are no row
+  std::size_t read_ = 0;  ///< bytes
+  std::string rest_;      ///< of a line that is not complete yet
+  std::optional<figures::TelemetryColumns> columns_;
+  std::uint64_t skipped_ = 0;  ///< lines that are no row
   double speed_ = 0.0;
   double mark_ = 0.0;  ///< time of the controller [s] at `wall_mark_ns_`
   std::int64_t wall_mark_ns_ = 0;
 };
-
-/// Reads a row of a telemetry.csv with these column names. Returns false if it has another number of fields, or if
-/// a field has no number where one belongs. Columns that are missing stay zero.
-bool read_telemetry_row(std::string_view line, const std::vector<std::string>& columns, LiveSample& sample);
 
 }  // namespace godobject::live
