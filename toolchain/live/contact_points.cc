@@ -47,19 +47,32 @@ std::vector<NearPoint> near_points(const SceneView& scene, const Pose& H_WS, dou
   return near;
 }
 
-/// The nearest points, none of them closer than `apart` [m] to another one with about the same normal.
-std::vector<ContactPoint> spread(std::vector<NearPoint> near, double apart) {
+/// The nearest points, the nearest first, none of them closer than `apart` [m] to another one with about the same
+/// normal. Stops at one more than a picture shows.
+std::vector<ContactPoint> apart_by(const std::vector<NearPoint>& near, double apart) {
   constexpr double kSameNormal = 0.9;  // cosine
-  std::stable_sort(near.begin(), near.end(),
-                   [](const NearPoint& a, const NearPoint& b) { return a.distance < b.distance; });
   std::vector<ContactPoint> chosen;
   for (const auto& [point, distance] : near) {
     const bool shown = std::any_of(chosen.begin(), chosen.end(), [&](const ContactPoint& other) {
       return (other.p_W - point.p_W).squaredNorm() < apart * apart && other.normal_W.dot(point.normal_W) > kSameNormal;
     });
     if (!shown) chosen.push_back(point);
-    if (chosen.size() == kMostContactPoints) break;
+    if (chosen.size() > kMostContactPoints) break;
   }
+  return chosen;
+}
+
+/// Points that stand for all, `apart` [m] from each other, or farther if there are too many.
+std::vector<ContactPoint> spread(std::vector<NearPoint> near, double apart) {
+  constexpr double kFarther = 1.4;
+  std::stable_sort(near.begin(), near.end(),
+                   [](const NearPoint& a, const NearPoint& b) { return a.distance < b.distance; });
+  std::vector<ContactPoint> chosen = apart_by(near, apart);
+  for (int i = 0; chosen.size() > kMostContactPoints && i < 20; ++i) {
+    apart *= kFarther;
+    chosen = apart_by(near, apart);
+  }
+  chosen.resize(std::min(chosen.size(), kMostContactPoints));
   return chosen;
 }
 

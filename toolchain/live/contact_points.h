@@ -20,8 +20,8 @@ inline constexpr std::size_t kMostContactPoints = 64;
 
 /// Returns places at which the god object at H_WS (pose of the body frame) touches: sample points of the moving body
 /// and feature points of the still one that are not farther from the surface than the nearest point and the margin of
-/// `contact`. Of places that a picture cannot tell apart the nearest one stays. Contacts of two edges are not among
-/// them. For pictures: cost up to a millisecond, allocates.
+/// `contact`. Of places close to each other the nearest one stays, so that those that are returned stand for all.
+/// Contacts of two edges are not among them. For pictures: cost up to a millisecond, allocates.
 ///
 /// The loads explain `wrench_W`, the force on the moving body about its centre of mass, as well as pushing forces at
 /// these points can; of all such loads they are nearly the smallest ones, so that an even pressure looks even.

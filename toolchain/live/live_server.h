@@ -39,7 +39,7 @@ class LiveServer {
   int port() const noexcept;
   std::size_t viewers() const noexcept;
 
-  /// Serves until `tick`, which is called every `interval_us`, returns false.
+  /// Serves until `tick`, which is called every `interval_us`, returns false. `tick` and the handlers must not throw.
   void run(std::int64_t interval_us, const std::function<bool()>& tick);
 
   /// Sends a state to every viewer that has taken the one before, and else in its place. `text_of` returns the message

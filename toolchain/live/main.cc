@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -126,7 +127,16 @@ class Desk {
 
   void run() {
     constexpr std::int64_t kInterval_us = 16'000;
-    server_.run(kInterval_us, [this] { return tick(); });
+    std::exception_ptr error;  // kept, because the server's library cannot pass it on
+    server_.run(kInterval_us, [&] {
+      try {
+        return tick();
+      } catch (...) {
+        error = std::current_exception();
+        return false;
+      }
+    });
+    if (error) std::rethrow_exception(error);
     if (const std::string failure = source_->failure(); !failure.empty()) {
       throw Failure(ExitCode::kUnavailable, failure);
     }
