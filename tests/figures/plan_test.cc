@@ -124,7 +124,8 @@ TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
             .verdicts = {.contact = {"HOLDS & keeps"}, .compared = {"MISSED & lost"}, .times = {"MISSED late"}},
             .arm_figures = {},
             .runs = {},
-            .run_verdicts = {}},
+            .run_verdicts = {},
+            .logs = {}},
            folder_);
   EXPECT_NE(html.find("<h3 id=\"peg\">A &lt; B</h3>"), std::string::npos);
   EXPECT_NE(html.find("<b>MISSED</b> &amp; lost"), std::string::npos);
@@ -142,6 +143,12 @@ TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
   EXPECT_LT(html.find("<figcaption>paper, 1.200"), html.find("<figcaption>paper, 1.201"));
   EXPECT_NE(html.find("<figcaption>sketch.png"), std::string::npos);
   EXPECT_NE(html.find("href=\"peg/paper.csv\""), std::string::npos);
+  PageContent elsewhere;
+  elsewhere.plan = read_plan(holding(kScene));
+  elsewhere.figures = {figure};
+  elsewhere.entries = {{"peg", "paper", 0.002, {}, {}}};
+  elsewhere.logs = folder_.parent_path() / "logs & more";
+  EXPECT_NE(page(elsewhere, folder_).find("href=\"../logs &amp; more/peg/paper.csv\""), std::string::npos);
   EXPECT_EQ(html.find("replay.html"), std::string::npos);
   std::ofstream(folder_ / "peg" / "replay.html") << "x";
   const std::string moving = page({.plan = read_plan(holding(kScene)),

@@ -38,8 +38,8 @@ Inputs:
                  barrier = [x, y, z, nx, ny, nz], a plane of W [m] on whose side the god object must stay. Optional
                  tables [[run]] have the same keys and device, the device file of an arm. Optional tables [[study]]
                  have the keys name, title and text.
-  for a scene    OUT/NAME/SOLVER.csv of godobject-replay, IMAGES/IMAGE.scene of godobject-scenec
-  for a run      OUT/NAME/telemetry.csv and OUT/NAME/hand.csv of godobject-controller, and the image
+  for a scene    LOGS/NAME/SOLVER.csv of godobject-replay, IMAGES/IMAGE.scene of godobject-scenec
+  for a run      LOGS/NAME/telemetry.csv and LOGS/NAME/hand.csv of godobject-controller, and the image
   for a study    OUT/NAME/report.html of godobject-report, to which the page links
   optional       pictures OUT/NAME/SOLVER_MOMENT.png and OUT/NAME/telemetry_MOMENT.png of godobject-view; a moving
                  picture OUT/NAME/replay.html of godobject-page
@@ -53,7 +53,7 @@ Exit codes: 0 done (missed claims included), 64 usage, 65 bad image or replay, 6
 70 gnuplot fails or is not installed, 74 cannot write, 77 no permission to write, 78 not TOML, or a bad key.)";
 
 struct Options {
-  std::string plan, images, output;
+  std::string plan, images, output, logs;
   std::vector<std::string> solvers;
 };
 
@@ -66,17 +66,18 @@ void write(const fs::path& file, const std::string& text) {
 /// Refuses missing inputs and outputs that cannot be written, before the work.
 void check_files(const Options& options, const Plan& plan) {
   const fs::path output = options.output;
+  const fs::path logs = options.logs;
   for (const char* file : {"statistics.csv", "index.html"}) files::output_target(output / file);
   for (const ScenePlan& scene : plan.scenes) {
     for (const std::string& solver : options.solvers)
-      files::require_input(output / scene.name / (solver + ".csv"), "make it with godobject-replay");
+      files::require_input(logs / scene.name / (solver + ".csv"), "make it with godobject-replay");
     files::output_target(output / scene.name / "figure.svg");
   }
   for (const StudyPlan& study : plan.studies)
     files::require_input(output / study.name / "report.html", "make it with godobject-report");
   for (const ArmPlan& run : plan.runs) {
     for (const char* file : {"telemetry.csv", "hand.csv"})
-      files::require_input(output / run.scene.name / file, "make it with godobject-controller --log");
+      files::require_input(logs / run.scene.name / file, "make it with godobject-controller --log");
     files::output_target(output / run.scene.name / "figure.svg");
   }
 }
@@ -95,7 +96,7 @@ void add_scene(const Options& options, const ScenePlan& plan, PageContent& conte
                 .markers = plan.markers,
                 .series = {}};
   for (const std::string& solver : options.solvers) {
-    ReplayLog log = read_replay_log(folder / (solver + ".csv"));
+    ReplayLog log = read_replay_log(fs::path(options.logs) / plan.name / (solver + ".csv"));
     Entry entry{plan.name, solver, figure.voxel_size, statistics(log, scene.grid.band), {}};
     if (plan.barrier) entry.crossing = furthest_crossing(log, scene, *plan.barrier);
     content.entries.push_back(std::move(entry));
@@ -109,7 +110,8 @@ void add_run(const Options& options, const ArmPlan& plan, PageContent& content) 
   const auto image = read_image(options, plan.scene);
   const godobject::SceneView& scene = image.scene;
   const fs::path folder = fs::path(options.output) / plan.scene.name;
-  ArmFigure figure{plan.scene.title, scene_facts(scene), plan.scene.markers, read_arm_log(folder, plan.device)};
+  ArmFigure figure{plan.scene.title, scene_facts(scene), plan.scene.markers,
+                   read_arm_log(fs::path(options.logs) / plan.scene.name, plan.device)};
   ArmRun run = arm_run(figure.log, scene.grid.band);
   run.name = plan.scene.name;
   run.voxel_size = scene.grid.voxel_size;
@@ -122,6 +124,7 @@ void add_run(const Options& options, const ArmPlan& plan, PageContent& content) 
 void make_figures(const Options& options) {
   PageContent content;
   content.plan = read_plan(options.plan);
+  content.logs = options.logs;
   check_files(options, content.plan);
   {
     command::Progress progress;
@@ -166,8 +169,13 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->required()
       ->option_text("SOLVER[,SOLVER ...] REQUIRED");
-  app.add_option("-o,--output", options.output, "folder of the replays, and of what is written")
+  app.add_option("-o,--output", options.output, "folder of the pictures, and of what is written")
       ->required()
       ->type_name("OUT");
-  return command::run(app, argc, argv, [&] { make_figures(options); });
+  app.add_option("--logs", options.logs, "folder of the replays and of the logs of runs; default: OUT")
+      ->type_name("LOGS");
+  return command::run(app, argc, argv, [&] {
+    if (options.logs.empty()) options.logs = options.output;
+    make_figures(options);
+  });
 }

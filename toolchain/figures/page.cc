@@ -167,13 +167,20 @@ std::string moving_link(const ScenePlan& plan, const std::filesystem::path& fold
   return fmt::format("<a href=\"{}/{}\">Moving picture</a>. ", files::html_text(plan.name), kMovingPicture);
 }
 
-std::string replays_html(const ScenePlan& plan, const std::vector<Entry>& entries,
-                         const std::filesystem::path& folder) {
-  const std::string scene = files::html_text(plan.name);
+/// Returns the address of a replay or a log from the page in `folder`.
+std::string log_link(const PageContent& content, const ScenePlan& plan, const std::string& name,
+                     const std::filesystem::path& folder) {
+  const std::filesystem::path logs =
+      content.logs.empty() ? std::filesystem::path() : std::filesystem::proximate(content.logs, folder);
+  return files::html_text((logs / plan.name / (name + ".csv")).generic_string());
+}
+
+std::string replays_html(const ScenePlan& plan, const PageContent& content, const std::filesystem::path& folder) {
   std::string text = "<p>" + moving_link(plan, folder) + "Replays:";
-  for (const Entry& entry : entries) {
+  for (const Entry& entry : content.entries) {
     if (entry.scene == plan.name)
-      text += fmt::format(" <a href=\"{0}/{1}.csv\">{1}</a>", scene, files::html_text(entry.solver));
+      text += fmt::format(" <a href=\"{}\">{}</a>", log_link(content, plan, entry.solver, folder),
+                          files::html_text(entry.solver));
   }
   return text + "</p>\n";
 }
@@ -214,10 +221,8 @@ std::string arm_html(const PageContent& content, const std::filesystem::path& fo
     const ArmFigure& figure = content.arm_figures[i];
     text += scene_html(plan, figure.facts, {{"telemetry", rendered(figure.log.cycles)}}, folder);
     text += "<p>" + moving_link(plan, folder);
-    text += fmt::format(
-        "Logs of the run: <a href=\"{0}/telemetry.csv\">telemetry</a>, <a href=\"{0}/hand.csv\">work of the "
-        "hand</a></p>\n",
-        files::html_text(plan.name));
+    text += fmt::format("Logs of the run: <a href=\"{}\">telemetry</a>, <a href=\"{}\">work of the hand</a></p>\n",
+                        log_link(content, plan, "telemetry", folder), log_link(content, plan, "hand", folder));
   }
   return text;
 }
@@ -257,7 +262,7 @@ std::string page(const PageContent& content, const std::filesystem::path& folder
   for (std::size_t i = 0; i < content.plan.scenes.size(); ++i) {
     const ScenePlan& plan = content.plan.scenes[i];
     text += scene_html(plan, content.figures[i].facts, content.figures[i].series, folder);
-    text += replays_html(plan, content.entries, folder);
+    text += replays_html(plan, content, folder);
   }
   for (const StudyPlan& study : content.plan.studies) text += study_html(study);
   text += kComparison + list(content.verdicts.compared) + table_html(content.entries);
