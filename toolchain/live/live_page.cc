@@ -16,8 +16,9 @@ constexpr const char* kSteers =
 }  // namespace
 
 std::string live_page(const LivePage& page, std::string_view title, std::string_view player) {
+  constexpr double kZoom = 0.5;  // room for the motion and for some of the arm
   page::ColumnPack pack;
-  nlohmann::json header = page::scene_header(page.bodies, {{page.start, page.start}}, pack);
+  nlohmann::json header = page::scene_header(page.bodies, {{page.start, page.start}}, pack, kZoom);
   header["statuses"] = nlohmann::json::array();
   header["live"] = {{"force", page.force},
                     {"torque", page.torque},

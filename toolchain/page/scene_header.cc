@@ -53,12 +53,12 @@ json body_entry(const TriangleMesh& mesh, const std::string& name, ColumnPack& p
   return entry;
 }
 
-json camera_entry(const PageBodies& scene, std::vector<viewer::Placement> shown) {
+json camera_entry(const PageBodies& scene, std::vector<viewer::Placement> shown, double zoom) {
   const viewer::Camera camera = viewer::make_camera({.still = scene.bodies.still,
                                                      .moving = scene.bodies.moving,
                                                      .placements = std::move(shown),
                                                      .up_axis = scene.up_axis,
-                                                     .zoom = 1.0,
+                                                     .zoom = zoom,
                                                      .direction = {}});
   return {{"eye", array_of(camera.eye)}, {"target", array_of(camera.target)}, {"half_view", viewer::kHalfView}};
 }
@@ -79,13 +79,13 @@ PageBodies read_page_bodies(const std::filesystem::path& scene_file) {
           .workspace = config.workspace};
 }
 
-json scene_header(const PageBodies& scene, std::vector<viewer::Placement> shown, ColumnPack& pack) {
+json scene_header(const PageBodies& scene, std::vector<viewer::Placement> shown, ColumnPack& pack, double zoom) {
   json header;
   header["up"] = scene.up_axis;
   header["still"] = body_entry(scene.bodies.still, scene.still_name, pack);
   header["moving"] = body_entry(scene.bodies.moving, scene.moving_name, pack);
   if (scene.workspace) header["workspace"] = {{"low", scene.workspace->low}, {"high", scene.workspace->high}};
-  header["camera"] = camera_entry(scene, std::move(shown));
+  header["camera"] = camera_entry(scene, std::move(shown), zoom);
   return header;
 }
 

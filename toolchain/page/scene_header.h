@@ -30,9 +30,10 @@ PageBodies read_page_bodies(const std::filesystem::path& scene_file);
 inline constexpr std::size_t kMaxTriangles = 500'000;
 
 /// Returns the keys of a page's header that belong to the scene (README.md), with their columns in `pack`. `shown`: one
-/// or more placements that the camera shows, as in viewer::View. Vertices are rounded to 1 / 65535 of the bounding box.
-/// Throws Failure (kBadData) if a body has more than kMaxTriangles triangles.
-nlohmann::json scene_header(const PageBodies& scene, std::vector<viewer::Placement> shown, ColumnPack& pack);
+/// or more placements that the camera shows; these and `zoom` as in viewer::View. Vertices are rounded to 1 / 65535 of
+/// the bounding box. Throws Failure (kBadData) if a body has more than kMaxTriangles triangles.
+nlohmann::json scene_header(const PageBodies& scene, std::vector<viewer::Placement> shown, ColumnPack& pack,
+                            double zoom = 1.0);
 
 /// Returns the data of a page: the length of the header (four bytes, lowest first), the header (JSON), and the columns
 /// that it refers to.
