@@ -81,7 +81,7 @@ const tests = {
     await tab.mouse.click(scrub.x + scrub.width / 2, scrub.y + scrub.height / 2);
     const at = await sample(tab);
     assert.ok(at > 450 && at < 550, `sample ${at}`);
-    const z = await tab.evaluate(() => window.godobjectPage.picture.replays[0].godObject.position.z);
+    const z = await tab.evaluate(() => window.godobjectPage.picture.motions[0].godObject.position.z);
     assert.ok(Math.abs(z - Math.max(0.03 - 0.06 * (at / 1000), 0)) < 1e-6, `z ${z}`);
     const after = await pixels(tab);
     assert.ok(after.row > before.row + 20, `${before.row} ${after.row}`);

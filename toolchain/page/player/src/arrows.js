@@ -3,6 +3,7 @@ import {
 } from 'three';
 
 const axis = new Vector3(0, 1, 0);
+const most = 1.2; // a live force may exceed the largest one that was expected
 
 function onTop(colour, opacity) {
   return new MeshBasicMaterial({ color: colour, depthTest: false, depthWrite: false, transparent: true, opacity });
@@ -36,7 +37,7 @@ export class ForceArrow extends Group {
 
   show(point, force) {
     const size = force.length();
-    const length = size > 1e-3 * this.largest ? Math.max(size / this.largest, 0.12) * this.longest : 0;
+    const length = size > 1e-3 * this.largest ? Math.min(Math.max(size / this.largest, 0.12), most) * this.longest : 0;
     align(this, force, length);
     this.position.copy(point);
     const head = Math.min(0.2 * this.longest, 0.6 * length);
@@ -63,7 +64,7 @@ export class TorqueArrow extends Group {
 
   show(point, torque) {
     const size = torque.length();
-    const radius = size > 1e-3 * this.largest ? Math.max(size / this.largest, 0.25) * this.radius : 0;
+    const radius = size > 1e-3 * this.largest ? Math.min(Math.max(size / this.largest, 0.25), most) * this.radius : 0;
     align(this, torque, radius);
     this.position.copy(point);
     this.scale.setScalar(Math.max(radius, 1e-9));

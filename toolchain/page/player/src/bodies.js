@@ -3,7 +3,6 @@ import {
   MeshBasicMaterial, MeshStandardMaterial, NotEqualStencilFunc, ReplaceStencilOp, Vector3,
 } from 'three';
 import { ForceArrow, TorqueArrow } from './arrows.js';
-import { replayColours } from './theme.js';
 
 const stillColour = 0xc9c3b6;
 const ghostColour = 0xf59e0b;
@@ -52,10 +51,10 @@ export class StillBody extends Group {
   }
 }
 
-/** Sets an object to the pose of a sample. */
-function setPose(object, [x, y, z, qw, qx, qy, qz], i) {
-  object.position.set(x[i], y[i], z[i]);
-  object.quaternion.set(qx[i], qy[i], qz[i], qw[i]).normalize();
+/** Sets an object to a pose: x, y, z [m], qw, qx, qy, qz. */
+function setPose(object, [x, y, z, qw, qx, qy, qz]) {
+  object.position.set(x, y, z);
+  object.quaternion.set(qx, qy, qz, qw).normalize();
 }
 
 /** Tells if two objects are at one pose, so that one hides the other. `near`: as a length [m] */
@@ -91,26 +90,25 @@ function ghostBody(geometries) {
       color: colour, transparent: true, opacity, roughness: 0.7, depthFunc: LessEqualDepth, depthWrite: false,
       stencilWrite: true, stencilRef: godObjectMark, stencilFunc,
     })));
+  group.surface = meshOf(geometries.surface, { material: depth, renderOrder: order.ghostDepth });
+  group.lit = shown;
   group.add(
     hiddenMesh,
-    meshOf(geometries.surface, { material: depth, renderOrder: order.ghostDepth }),
+    group.surface,
     ...shown.map((material) => meshOf(geometries.surface, { material, renderOrder: order.ghost })),
     lines(geometries.edges, 0xd97706, 0.9, order.ghost),
   );
   return group;
 }
 
-/** One replay in 3D: god object, device pose and arrows. */
-export class ReplayBodies extends Group {
-  /** `scale`: lengths of the longest arrows [m] and the largest force and torque of all replays. */
-  constructor(data, index, geometries, cut, scale, size) {
+/** One motion of the moving body in 3D: god object, device pose and arrows. */
+export class MovingBodies extends Group {
+  /** `scale`: lengths of the longest arrows [m] and their force [N] and torque [Nm]; `size`: of faces of a cut [m]. */
+  constructor(body, geometries, colour, cut, scale, size) {
     super();
-    this.device = data.device;
-    this.replay = data.replays[index];
-    this.centre = new Vector3(...data.moving.centre);
+    this.centre = new Vector3(...body.centre);
     this.cut = cut;
     this.size = scale.length;
-    const colour = replayColours[index];
     this.godObject = new Group();
     this.surface = meshOf(geometries.surface, solid(colour, order.godObject));
     Object.assign(this.surface.material, {
@@ -118,7 +116,7 @@ export class ReplayBodies extends Group {
     });
     this.edges = lines(geometries.edges, new Color(colour).multiplyScalar(0.35), 0.6, order.godObject + 0.2);
     this.godObject.add(this.surface, this.edges);
-    if (data.moving.closed) {
+    if (body.closed) {
       this.closing = cut.closing(geometries.surface, new Color(colour).multiplyScalar(0.6), size, order.cutFace);
       for (const object of [...this.closing.counted.children, this.closing.cap]) object.material.transparent = true;
       this.godObject.add(this.closing.counted);
@@ -135,14 +133,19 @@ export class ReplayBodies extends Group {
     return this.centre.clone().applyQuaternion(this.godObject.quaternion).add(this.godObject.position);
   }
 
-  show(i) {
-    setPose(this.godObject, this.replay.pose, i);
-    setPose(this.ghost, this.device, i);
+  /** Shows the poses `device` and `god` of the mesh in W, and the `force` [N] and `torque` [Nm] on the device. */
+  show({ device, god, force, torque }) {
+    setPose(this.godObject, god);
+    setPose(this.ghost, device);
     this.ghost.visible = !samePose(this.ghost, this.godObject, 1e-4 * this.size);
     const at = this.centre.clone().applyQuaternion(this.ghost.quaternion).add(this.ghost.position);
-    const vector = (columns) => new Vector3(columns[0][i], columns[1][i], columns[2][i]);
-    this.force.show(at, vector(this.replay.force));
-    this.torque.show(at, vector(this.replay.torque));
+    this.force.show(at, new Vector3(...force));
+    this.torque.show(at, new Vector3(...torque));
+  }
+
+  /** Makes the bodies lighter, to show that the pointer can take them. */
+  highlight(on) {
+    for (const { emissive } of [this.surface.material, ...this.ghost.lit]) emissive.setScalar(on ? 0.09 : 0);
   }
 
   refresh() {

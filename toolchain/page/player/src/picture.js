@@ -1,31 +1,25 @@
 import { PerspectiveCamera, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { ReplayBodies, StillBody } from './bodies.js';
+import { MovingBodies, StillBody } from './bodies.js';
 import { bodyGeometries } from './body_geometry.js';
 import { Cut } from './cut.js';
 import { Stage } from './stage.js';
-
-function largestLength(replays, key) {
-  let largest = 0;
-  for (const replay of replays) {
-    for (let i = 0; i < replay[key][0].length; ++i) {
-      largest = Math.max(largest, Math.hypot(replay[key][0][i], replay[key][1][i], replay[key][2][i]));
-    }
-  }
-  return largest || 1;
-}
+import { motionColours } from './theme.js';
 
 function diagonal(body) {
   return new Vector3(...body.high).distanceTo(new Vector3(...body.low));
 }
 
-/** The 3D picture: one view for each replay, all with one camera. */
+/** The 3D picture: one view for each motion of the moving body, all with one camera. */
 export class Picture {
-  /** Throws an error without WebGL. */
-  constructor(data, canvas) {
+  /**
+   * `count`: of motions; `largest`: the force [N] and the torque [Nm] of the longest arrows; `lowest(up)`: the lowest
+   * place along an axis of W that is worth showing [m]; `smoothEdges`: draws edges without steps. Throws an error without WebGL.
+   */
+  constructor(data, canvas, { count, largest, lowest, smoothEdges }) {
     this.data = data;
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, stencil: true });
+    this.renderer = new WebGLRenderer({ canvas, antialias: smoothEdges, alpha: true, stencil: true });
     this.renderer.localClippingEnabled = true;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setScissorTest(true);
@@ -36,23 +30,22 @@ export class Picture {
     this.distance = this.eye.distanceTo(this.target);
     const shownSize = 2 * this.distance * Math.sin(data.camera.half_view);
     this.cut = new Cut();
-    this.stage = new Stage(data, shownSize);
-    this.makeBodies(Math.min(diagonal(data.moving), shownSize), 4 * (diagonal(data.still) + shownSize));
+    this.stage = new Stage(data, shownSize, lowest);
+    this.size = Math.min(diagonal(data.moving), shownSize);
+    this.makeBodies(count, largest, 4 * (diagonal(data.still) + shownSize));
     this.camera = new PerspectiveCamera(35, 1, 0.01 * this.distance, 50 * this.distance + 4 * diagonal(data.still));
     this.columns = 1;
     this.resetView();
   }
 
-  makeBodies(size, capSize) {
-    const { data, cut, stage } = this;
-    const scale = {
-      length: 0.55 * size, radius: 0.25 * size,
-      force: largestLength(data.replays, 'force'), torque: largestLength(data.replays, 'torque'),
-    };
+  makeBodies(count, largest, capSize) {
+    const { data, cut, stage, size } = this;
+    const scale = { length: 0.55 * size, radius: 0.25 * size, ...largest };
     this.still = new StillBody(bodyGeometries(data.still), data.still.closed, cut, capSize);
     const moving = bodyGeometries(data.moving);
-    this.replays = data.replays.map((_, i) => new ReplayBodies(data, i, moving, cut, scale, capSize));
-    stage.scene.add(this.still, ...this.replays);
+    this.motions = Array.from({ length: count }, (_, i) =>
+      new MovingBodies(data.moving, moving, motionColours[i], cut, scale, capSize));
+    stage.scene.add(this.still, ...this.motions);
   }
 
   setUp(axis) {
@@ -72,7 +65,7 @@ export class Picture {
   place(toEye) {
     this.controls?.dispose();
     this.camera.up.set(0, 0, 0).setComponent(this.up, 1);
-    const room = this.replays.length > 1 ? 1.02 : 0.9; // small views have more beside their labels
+    const room = this.motions.length > 1 ? 1.02 : 0.9; // small views have more beside their labels
     const widening = room * Math.max(1, 1 / Math.max(this.camera.aspect, 0.3)) ** 0.85;
     this.camera.position.copy(this.target).addScaledVector(toEye, widening);
     this.controls = new OrbitControls(this.camera, this.canvas);
@@ -97,7 +90,7 @@ export class Picture {
     this.cutAxis = axis;
     this.cutPosition = position;
     this.still.refresh();
-    for (const replay of this.replays) replay.refresh();
+    for (const motion of this.motions) motion.refresh();
     this.invalidate();
   }
 
@@ -114,9 +107,10 @@ export class Picture {
     this.stale = true;
   }
 
-  show(sample) {
-    for (const replay of this.replays) replay.show(sample);
-    const place = this.replays[0].place();
+  /** Shows one state of each motion, see `MovingBodies`. */
+  show(states) {
+    this.motions.forEach((motion, i) => motion.show(states[i]));
+    const place = this.motions[0].place();
     if (this.follows) {
       const moved = place.clone().sub(this.shownPlace);
       this.camera.position.add(moved);
@@ -131,7 +125,7 @@ export class Picture {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
     if (!width || !height) return;
-    const count = this.replays.length;
+    const count = this.motions.length;
     const before = this.camera.aspect;
     this.columns = width > height * 0.9 ? count : 1;
     this.renderer.setSize(width, height, false);
@@ -147,13 +141,19 @@ export class Picture {
   /** Returns the rectangles of the views in the element, from the top left [px]. */
   views() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
-    const rows = this.replays.length / this.columns;
-    return this.replays.map((_, i) => ({
+    const rows = this.motions.length / this.columns;
+    return this.motions.map((_, i) => ({
       left: ((i % this.columns) * width) / this.columns,
       top: (Math.floor(i / this.columns) * height) / rows,
       width: width / this.columns,
       height: height / rows,
     }));
+  }
+
+  /** Draws fewer pixels from now on, down to one for each 2 x 2 of the screen. */
+  coarsen() {
+    this.renderer.setPixelRatio(Math.max(0.8 * this.renderer.getPixelRatio(), 0.5));
+    this.resize();
   }
 
   /** Draws if anything changed. */
@@ -167,7 +167,7 @@ export class Picture {
     stage.light(camera, this.controls.target, this.up);
     const height = this.canvas.parentElement.clientHeight;
     this.views().forEach((view, i) => {
-      this.replays.forEach((replay, k) => (replay.visible = i === k));
+      this.motions.forEach((motion, k) => (motion.visible = i === k));
       const bottom = height - view.top - view.height;
       renderer.setViewport(view.left, bottom, view.width, view.height);
       renderer.setScissor(view.left, bottom, view.width, view.height);

@@ -2,9 +2,9 @@
 
 const lengthScale = 1e3;
 
-/** Returns the plotted quantities. `largest(key)`: of all replays, in SI units. A value times `scale` is in `unit`. */
-export function quantities(largest) {
-  const small = largest('torque') < 0.1;
+/** Returns the plotted quantities. `largestTorque` chooses a unit [Nm]. A value times `scale` is in `unit`. */
+export function quantities(largestTorque) {
+  const small = largestTorque < 0.1;
   return [
     { key: 'force', name: 'Force', unit: 'N', scale: 1, digits: 2 },
     { key: 'torque', name: 'Torque', unit: small ? 'mNm' : 'Nm', scale: small ? 1e3 : 1, digits: small ? 2 : 3 },
@@ -19,9 +19,9 @@ export function quantities(largest) {
     { key: 'contacts', name: 'Contacts', unit: '', scale: 1, digits: 0, stepped: true },
     {
       key: 'time', name: 'Computing time', unit: 'µs', scale: 1e6, digits: 1, logarithmic: true,
-      hint: 'Time of all steps of a cycle on the machine that made the replay.',
+      hint: 'Time of all steps of a cycle on the machine that computed it.',
     },
-  ].filter(({ key }) => key !== 'time' || largest('time') > 0); // a run in virtual time has none
+  ];
 }
 
 const words = {

@@ -10,23 +10,10 @@ function roundLength(length) {
   return power * steps.filter((step) => step * power <= length * 1.0001).at(-1);
 }
 
-/** Returns the lowest place of all bodies in touch along an axis of W, not far below the still one [m]. */
-function lowest(data, up, size) {
-  const { low, high, centre } = data.moving;
-  const reach = Math.hypot(...low.map((_, k) => Math.max(high[k] - centre[k], centre[k] - low[k])));
-  let place = data.still.low[up];
-  for (const { pose, status } of data.replays) {
-    for (let i = 0; i < data.t.length; ++i) {
-      if (data.statuses[status[i]] !== 'free') place = Math.min(place, pose[up][i] + centre[up] - reach);
-    }
-  }
-  return Math.max(place, data.still.low[up] - size);
-}
-
-/** What all replays share: lights, a grid below the still body and the box of the workspace. */
+/** The surroundings of the bodies: lights, a grid below the still body and the box of the workspace. */
 export class Stage {
-  /** `size`: of the shown part of the scene [m]. */
-  constructor(data, size) {
+  /** `size`: of the shown part of the scene [m]; `lowest(up)`: lowest place worth showing along an axis of W [m]. */
+  constructor(data, size, lowest) {
     this.scene = new Scene();
     this.sky = new HemisphereLight(0xffffff, 0x8a8578, 1.25);
     this.key = new DirectionalLight(0xffffff, 2.0);
@@ -34,7 +21,7 @@ export class Stage {
     this.scene.add(this.sky, this.key, this.key.target, this.fill, this.fill.target);
     this.gridStep = roundLength(0.2 * size);
     this.size = size;
-    this.data = data;
+    this.floor = (up) => Math.max(lowest(up), data.still.low[up] - size);
     if (data.workspace) {
       const box = new Box3(new Vector3(...data.workspace.low), new Vector3(...data.workspace.high));
       this.workspace = new Box3Helper(box, 0xf59e0b);
@@ -61,7 +48,7 @@ export class Stage {
     for (let axis = 0; axis < 3; ++axis) {
       centre.setComponent(axis, Math.round(centre.getComponent(axis) / this.gridStep) * this.gridStep);
     }
-    this.grid.position.copy(centre.setComponent(up, lowest(this.data, up, this.size) - 0.002 * this.size));
+    this.grid.position.copy(centre.setComponent(up, this.floor(up) - 0.002 * this.size));
     this.scene.add(this.grid);
   }
 

@@ -31,5 +31,5 @@ export class Theme {
   }
 }
 
-/** The colours of replays; readable on light and dark ground. */
-export const replayColours = ['#3b82f6', '#a855f7', '#0d9488'];
+/** The colours of god objects, one for each motion; readable on light and dark ground. */
+export const motionColours = ['#3b82f6', '#a855f7', '#0d9488'];

@@ -21,7 +21,10 @@ export class ViewOptions {
     this.picture = picture;
     this.root = element('div', { className: 'options' });
     if (picture) this.addPictureOptions();
+    this.boxes = element('span', { className: 'boxes' });
+    this.root.append(this.boxes);
     const right = element('span', { className: 'right' });
+    this.right = right;
     if (picture) right.append(iconButton('reset', 'Reset the view (r)', () => picture.resetView()));
     if (document.fullscreenEnabled) right.append(iconButton('full', 'Full screen (f)', () => this.toggleFull()));
     right.append(iconButton('theme', 'Light or dark (d)', () => theme.toggle()));
@@ -41,11 +44,23 @@ export class ViewOptions {
     this.slider = element('input', { type: 'range', min: 0, max: 1000, 'aria-label': 'Place of the cut',
       oninput: () => this.applyCut() });
     this.place = element('output', { className: 'place' });
-    this.details = element('span', { className: 'details' }, this.axisChoice, this.slider, this.place, this.both.label);
+    this.details = element('span', { className: 'details own-keys' }, this.axisChoice, this.slider, this.place, this.both.label);
     const names = axes.map((axis) => `${axis} up`);
     const up = choice('Axis that points up', names, picture.up, (axis) => picture.setUp(axis));
     this.root.append(this.follow.label, this.cut.label, this.details, up);
     this.setAxis(this.axis);
+  }
+
+  /** Adds a box with words. Returns its input. */
+  addBox(words, title, act) {
+    const { input, label } = checkbox(words, title, act);
+    this.boxes.append(label);
+    return input;
+  }
+
+  /** Adds a button with words. */
+  addButton(words, act) {
+    this.right.prepend(element('button', { type: 'button', className: 'text', onclick: act }, words));
   }
 
   /** Cuts across another axis, at first through the middle of the god object. */
@@ -53,7 +68,7 @@ export class ViewOptions {
     this.axis = axis;
     this.axisChoice.value = String(axis);
     const [low, high] = this.picture.extent(axis);
-    const place = this.picture.replays[0].place().getComponent(axis);
+    const place = this.picture.motions[0].place().getComponent(axis);
     this.slider.value = String(Math.round((1000 * (place - low)) / (high - low || 1)));
     this.applyCut();
   }
