@@ -1,0 +1,42 @@
+const fewest = 0.01; // time of a bucket [s]
+
+/** The last seconds of several quantities in buckets of time, each with the smallest and the largest number. */
+export class History {
+  constructor(keys, seconds) {
+    this.keys = keys;
+    this.seconds = seconds;
+    this.clear();
+  }
+
+  clear() {
+    this.t = [];
+    this.low = Object.fromEntries(this.keys.map((key) => [key, []]));
+    this.high = Object.fromEntries(this.keys.map((key) => [key, []]));
+  }
+
+  /** Takes [last, lowest, highest] of each quantity until a time [s]. */
+  take(time, plots) {
+    const { t } = this;
+    if (t.length && time < t.at(-1)) this.clear(); // the controller began again
+    if (t.length > 1 && time - t.at(-2) < fewest) {
+      t[t.length - 1] = time;
+      for (const key of this.keys) {
+        this.low[key].push(Math.min(this.low[key].pop(), plots[key][1]));
+        this.high[key].push(Math.max(this.high[key].pop(), plots[key][2]));
+      }
+      return;
+    }
+    this.t.push(time);
+    for (const key of this.keys) {
+      this.low[key].push(plots[key][1]);
+      this.high[key].push(plots[key][2]);
+    }
+    this.forget(time - this.seconds);
+  }
+
+  forget(before) {
+    const old = this.t.findIndex((t) => t >= before);
+    if (old < 60) return; // seldom, because it moves all that remains
+    for (const column of [this.t, ...this.keys.flatMap((key) => [this.low[key], this.high[key]])]) column.splice(0, old);
+  }
+}
