@@ -2,60 +2,17 @@
 // Opens FOLDER/{one,two,long}.html from the disk and uses them as a viewer would.
 const assert = require('node:assert/strict');
 const path = require('node:path');
-const puppeteer = require('puppeteer-core');
+const { assertFitsPhone, openTab, phone, pixels, runTests, softwareGl } = require('../../support/browser/tabs.js');
 
 const [, , chromium, folder] = process.argv;
-const wide = { width: 1300, height: 860 };
-const phone = { width: 390, height: 844, isMobile: true, hasTouch: true, deviceScaleFactor: 2 };
-const softwareGl = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
-/** Opens a page. `complaints` collects what the console and the network say. */
-async function open(browser, name, { viewport = wide, scheme = 'light', hash = '' } = {}) {
-  const tab = await browser.newPage();
-  tab.setDefaultTimeout(300_000);  // a busy machine draws slowly
-  tab.complaints = [];
-  tab.on('console', (message) => ['error', 'warn'].includes(message.type()) && !message.text().includes('GPU stall') &&
-    tab.complaints.push(message.text()));
-  tab.on('pageerror', (error) => tab.complaints.push(error.message));
-  tab.on('request', (request) => /^(file|data|blob):/.test(request.url()) || tab.complaints.push(request.url()));
-  await tab.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
-  await tab.setViewport(viewport);
-  await tab.goto(`file://${path.resolve(folder, name)}${hash}`);
-  await tab.waitForFunction(() => window.godobjectPage);
-  await tab.waitForSelector('.plot canvas');
-  return tab;
+function open(browser, name, { hash = '', ...settings } = {}) {
+  const address = `file://${path.resolve(folder, name)}${hash}`;
+  return openTab(browser, address, (url) => /^(file|data|blob):/.test(url), settings);
 }
 
 const time = (tab) => tab.evaluate(() => window.godobjectPage.clock.time);
 const sample = (tab) => tab.evaluate(() => window.godobjectPage.clock.sample);
-
-/** Draws, and returns for a part of the picture how many pixels have each colour, and the mean place of `god`. */
-function pixels(tab, from = 0, to = 1) {
-  return tab.evaluate((begin, end) => {
-    const { picture } = window.godobjectPage;
-    picture.invalidate();
-    picture.draw();
-    const { width, height } = picture.canvas;
-    const copy = new OffscreenCanvas(width, height).getContext('2d');
-    copy.drawImage(picture.canvas, 0, 0);
-    const { data } = copy.getImageData(0, 0, width, height);
-    const counts = { blue: 0, violet: 0, grey: 0, red: 0, cap: 0, drawn: 0, row: 0 };
-    for (let y = 0; y < height; ++y) {
-      for (let x = Math.floor(begin * width); x < end * width; ++x) {
-        const [r, g, b, a] = data.subarray(4 * (y * width + x), 4 * (y * width + x) + 4);
-        if (a < 250) continue;
-        counts.drawn += 1;
-        if (b > r + 60 && b > g + 40 && r < g) { counts.blue += 1; counts.row += y; }
-        if (b > g + 60 && r > g + 30) counts.violet += 1;
-        if (r > g && g > b && r - b < 40 && r > 90) counts.grey += 1;
-        if (r > 200 && g < 60) counts.red += 1;
-        if (r > g + 25 && g > b + 15 && r > 150) counts.cap += 1;
-      }
-    }
-    counts.row /= counts.blue || 1;
-    return counts;
-  }, from, to);
-}
 
 const tests = {
   async 'opens playing just before the first contact'(browser) {
@@ -196,10 +153,7 @@ const tests = {
   async 'fits a phone'(browser) {
     for (const name of ['one.html', 'two.html']) {
       const tab = await open(browser, name, { viewport: phone, hash: '#paused&t=0.9&cut=y' });
-      assert.ok((await tab.evaluate(() => document.documentElement.scrollWidth)) <= 390, name);
-      const right = await tab.$$eval('button, select, input, .value', (all) =>
-        Math.max(...all.map((one) => one.getBoundingClientRect().right)));
-      assert.ok(right <= 390, `${name}: ${right}`);
+      await assertFitsPhone(tab);
       assert.deepEqual(tab.complaints, []);
       await tab.close();
     }
@@ -229,28 +183,11 @@ async function withoutWebGl(browser) {
   return tab;
 }
 
-async function runAll(options, named) {
-  const browser = await puppeteer.launch({
-    executablePath: chromium,
-    args: ['--no-sandbox', ...options],
-    timeout: 300_000,
-    protocolTimeout: 600_000,
-  });
-  try {
-    for (const [name, test] of Object.entries(named)) {
-      const tab = await test(browser);
-      if (tab) assert.deepEqual(tab.complaints, [], name);
-      await tab?.close();
-      console.log(`passed: ${name}`);
-    }
-  } finally {
-    await browser.close();
-  }
-}
-
 (async () => {
-  await runAll(softwareGl, tests);
-  await runAll(['--disable-3d-apis'], { 'without WebGL it says so, and the plots work': withoutWebGl });
+  await runTests(chromium, softwareGl, tests);
+  await runTests(chromium, ['--disable-3d-apis'], {
+    'without WebGL it says so, and the plots work': withoutWebGl,
+  });
 })().catch((error) => {
   console.error(error);
   process.exit(1);
