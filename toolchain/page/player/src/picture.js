@@ -21,7 +21,7 @@ export class Picture {
     this.canvas = canvas;
     this.renderer = new WebGLRenderer({ canvas, antialias: smoothEdges, alpha: true, stencil: true });
     this.renderer.localClippingEnabled = true;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.setSharpness(1);
     this.renderer.setScissorTest(true);
     this.renderer.autoClear = false;
     this.up = data.up;
@@ -150,10 +150,12 @@ export class Picture {
     }));
   }
 
-  /** Draws fewer pixels from now on, down to one for each 2 x 2 of the screen. */
-  coarsen() {
-    this.renderer.setPixelRatio(Math.max(0.8 * this.renderer.getPixelRatio(), 0.5));
-    this.resize();
+  /** Sets the pixels of a length of the picture by those of the screen, of which more than 2 by CSS pixel are not drawn. */
+  setSharpness(share) {
+    const ratio = share * Math.min(devicePixelRatio, 2);
+    if (ratio === this.renderer.getPixelRatio()) return;
+    this.renderer.setPixelRatio(ratio);
+    this.invalidate();
   }
 
   /** Draws if anything changed. */

@@ -28,6 +28,11 @@ export function inUnit({ scale, logarithmic }, numbers) {
   return Float64Array.from(numbers, (v) => (logarithmic ? Math.max(v * scale, 0.1) : v * scale));
 }
 
+function tickText(v) {
+  if (v === null) return '';
+  return v >= 1e5 ? `${+(v / 1e3).toPrecision(6)}k` : `${+v.toPrecision(6)}`;
+}
+
 /** A plot of a quantity over time below its name and its present values. */
 export class PlotFigure {
   /**
@@ -65,7 +70,7 @@ export class PlotFigure {
         { ...axis, size: 22, space: 50, ...curves.x },
         {
           ...axis, size: 46, space: 22, ...(quantity.logarithmic ? { splits: decades } : {}),
-          values: (_, ticks) => ticks.map((v) => (v === null ? '' : `${+v.toPrecision(6)}`)),
+          values: (_, ticks) => ticks.map(tickText),
         },
       ],
       hooks: curves.hooks ?? {},
@@ -89,7 +94,7 @@ export class PlotFigure {
   write(numbers) {
     const { key, scale, digits } = this.quantity;
     this.values.forEach((value, i) => {
-      value.textContent = fixed(numbers[i] * scale, digits);
+      value.textContent = Number.isFinite(numbers[i]) ? fixed(numbers[i] * scale, digits) : '–';
       value.classList.toggle('inside', key === 'depth' && numbers[i] > 0);
     });
   }

@@ -3,7 +3,7 @@ import { Instances } from './instances.js';
 
 const most = 16;
 
-/** The arm: a tube from each joint to the next, and a ball in each joint. Translucent, above the bodies. */
+/** The arm: a ball in each joint, and a tube from each to the next one or the tool. Translucent. */
 export class Arm extends Group {
   /** `size`: of the moving body [m]. */
   constructor(size) {
@@ -29,10 +29,10 @@ export class Arm extends Group {
     for (const part of [...this.tubes, ...this.balls]) part.clear();
     places.forEach((place, i) => {
       const thin = radius * (1 - (0.45 * i) / places.length);
+      const link = places[i + 1]?.clone().sub(place);
+      if (!link || link.length() < 1e-6) return;
       for (const balls of this.balls) balls.put(place, new Vector3(0, 1, 0), 1.25 * thin, 1.25 * thin);
-      const way = places[i + 1]?.clone().sub(place);
-      if (!way || way.length() < 1e-6) return;
-      for (const tubes of this.tubes) tubes.put(place, way.clone().normalize(), thin, way.length());
+      for (const tubes of this.tubes) tubes.put(place, link.clone().normalize(), thin, link.length());
     });
   }
 }

@@ -70,10 +70,7 @@ function connectHand(parts) {
   const { data, connection, picture, view, notices, options } = parts;
   const size = picture.size;
   const hand = new Hand(new Vector3(...data.moving.centre), size, (message) => connection.send(message));
-  const mayGrab = () => {
-    if (!connection.online || !parts.latest) return false;
-    return parts.latest.hand !== 'other';
-  };
+  const mayGrab = () => connection.online && parts.latest.hand !== 'other';
   const grab = new Grab(picture, hand, view, mayGrab);
   const instruments = [new KeyRates(), new GamepadRates()];
   const steering = new Steering(picture, hand, instruments, mayGrab);
@@ -103,19 +100,33 @@ function connectArm({ options, objects }) {
   return () => arm.click();
 }
 
+/** Returns a function that tells if a state shows something else in the picture than the state before. */
+function changeOf() {
+  let before;
+  return ({ device, god, force, torque, points, arm }) => {
+    const now = JSON.stringify([device, god, force, torque, points, arm]);
+    const changed = now !== before;
+    before = now;
+    return changed;
+  };
+}
+
 /** Connects the messages of the server to the parts of the page. */
 function connectServer(parts, smooth) {
   const { connection, root, notices, settings, line, plots, objects, hand } = parts;
+  const changes = changeOf();
   connection.onState = (state) => {
-    smooth.take(state, performance.now());
+    if (changes(state)) {
+      smooth.take(state, performance.now());
+      objects?.show(state);
+    }
     parts.latest = state;
-    hand?.follow(state.device);
+    if (smooth.latest) hand?.follow(smooth.latest.device);
     if (state.hand === 'other') hand?.drop();
     line.show(state);
     notices.showFault(state.fault);
     settings.show(state.settings);
     plots.take(state);
-    objects?.show(state);
   };
   connection.onAnswer = (answer) => {
     if (settings.take(answer) || answer.ok) return;
@@ -145,7 +156,7 @@ export function startLive(data, root) {
   connectKeys(keys);
   connectServer(parts, smooth);
   window.godobjectPage = parts; // for tests
-  const rate = picture && new FrameRate(picture);
+  const rate = new FrameRate(picture, plots);
   eachFrame((seconds) => {
     const now = performance.now();
     parts.steering?.advance(seconds);
@@ -153,8 +164,8 @@ export function startLive(data, root) {
       if (smooth.latest && !smooth.settled) picture.show([smooth.at(now)]);
       objects.showBand(parts.grab?.band());
       picture.draw();
-      rate.advance(seconds);
     }
     plots.draw(now);
+    rate.advance(seconds);
   });
 }

@@ -5,9 +5,10 @@ import { motionColours } from '../theme.js';
 import { History } from './history.js';
 
 const seconds = 10;
-const shortest = 33; // from one drawing to the next [ms]
 const red = '#dc2626';
 const tops = [1, 1.5, 2, 3, 5, 7.5, 10];
+// The least height of a plot in its unit, so that it does not magnify noise.
+const least = { force: 1, stretch: 0.1, depth: 0.1, contacts: 2, late: 10, energy: 1 };
 
 /** Returns a number of `tops` times a power of ten that is not below a size, so that an axis seldom changes. */
 function roundTop(size) {
@@ -16,14 +17,18 @@ function roundTop(size) {
   return power * tops.find((top) => top * power >= size * 0.9999);
 }
 
-function calmRange(plot, low, high) {
-  const [bottom, top] = [-roundTop(-low), roundTop(high)];
-  return bottom === top ? [0, 1] : [bottom, top];
+/** Returns a function that gives the range of a quantity: from below zero only if it has been there. */
+function calmRange(key) {
+  return (plot, low, high) => {
+    const top = Math.max(roundTop(high), least[key] ?? 0);
+    return [-roundTop(-low), top > 0 ? top : 1];
+  };
 }
 
+/** Returns a range that shows depths near zero, unless all are far from it. */
 function calmDepth(plot, low, high) {
   const [bottom, top] = depthRange(plot, low, high);
-  return bottom < top ? calmRange(plot, bottom, top) : [-1, 1];
+  return [-roundTop(-(high < bottom ? low : bottom)), Math.max(roundTop(top), 0.1 * least.depth)];
 }
 
 function wholeDecades(plot, low, high) {
@@ -45,7 +50,7 @@ function plotted(largestTorque) {
     },
   ];
   return [...quantities(largestTorque), ...live].map((quantity) => ({
-    ...quantity, range: quantity.logarithmic ? wholeDecades : quantity.key === 'depth' ? calmDepth : calmRange,
+    ...quantity, range: quantity.logarithmic ? wholeDecades : quantity.key === 'depth' ? calmDepth : calmRange(quantity.key),
   }));
 }
 
@@ -55,7 +60,7 @@ export class RollingPlots {
     this.figures = plotted(largestTorque).map((quantity) => this.makeFigure(quantity, theme));
     this.history = new History(this.figures.map(({ quantity }) => quantity.key), seconds);
     this.root = element('div', { className: 'plots' }, ...this.figures.map(({ root }) => root));
-    this.interval = shortest;
+    this.interval = 33; // from one drawing to the next [ms]
     this.drawnAt = 0;
     new ResizeObserver(() => this.fit()).observe(this.root);
     this.visible = new Set();

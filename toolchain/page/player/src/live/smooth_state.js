@@ -15,8 +15,9 @@ function mixPoses(a, b, share) {
 
 /** The latest state, towards which the picture moves evenly until the next one is due. */
 export class SmoothState {
-  /** Takes a state at a time [ms]. */
+  /** Takes a state at a time [ms]. Poses that are not known (null) leave the picture as it is. */
   take(state, now) {
+    if (![...state.device, ...state.god].every(Number.isFinite)) return;
     this.from = this.latest ? this.at(now) : state;
     this.span = this.latest ? Math.min(now - this.arrived, longestDelay) : 0;
     this.latest = state;
