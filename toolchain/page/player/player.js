@@ -4459,13 +4459,9 @@ button.text { width: auto; padding: 0 11px; }
   border: 1px solid var(--cut); background: color-mix(in srgb, var(--cut) 14%, transparent); overflow-wrap: anywhere; }
 .refusal[hidden], .refusal [hidden] { display: none; }
 @media (min-width: 1000px) {
-  #player.live .boxes { display: inline-flex; gap: 14px; }
-.boxes:empty { display: none; }
-.side { grid-template-rows: auto minmax(0, 1fr); height: max(756px, calc(100vh - 105px)); align-content: stretch; }
+  #player.live .side { grid-template-rows: auto minmax(0, 1fr); height: max(756px, calc(100vh - 105px)); align-content: stretch; }
   #player.live .plots { grid-template-columns: repeat(2, minmax(0, 1fr)); height: auto; }
-  #player.live:fullscreen .boxes { display: inline-flex; gap: 14px; }
-.boxes:empty { display: none; }
-.side { height: max(756px, calc(100vh - 24px)); }
+  #player.live:fullscreen .side { height: max(756px, calc(100vh - 24px)); }
 }
 @media (max-width: 999px) {
   #player.live button { height: 42px; min-width: 42px; }
