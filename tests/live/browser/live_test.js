@@ -1,7 +1,10 @@
 // usage: node live_test.js CHROMIUM URL
-// Opens the page of a running godobject-live --hand and uses it as a viewer would. URL has the token.
+// Opens the page of a running godobject-live --hand and uses it as a viewer would. URL has the token. SPEED=yes also
+// counts the pictures of a second, which only an idle machine draws fast enough.
 const assert = require('node:assert/strict');
-const { assertFitsPhone, openTab, phone, pixels, runTests, softwarePictures } = require('../../support/browser/tabs.js');
+const {
+  assertFitsPhone, openTab, phone, pixels, runTests, softwarePictures,
+} = require('../../support/browser/tabs.js');
 
 const [, , chromium, address] = process.argv;
 const { host } = new URL(address);
@@ -154,7 +157,10 @@ const tests = {
     const [x, y] = await grab(tab);
     const first = await target();
     await tab.mouse.wheel({ deltaY: -100 });
-    await until(tab, () => window.godobjectPage.hand.wanted.place.distanceTo(window.godobjectPage.hand.device.place) > 1e-4);
+    await until(tab, () => {
+      const { wanted, device } = window.godobjectPage.hand;
+      return wanted.place.distanceTo(device.place) > 1e-4;
+    });
     const pushed = await target();
     assert.ok(change(pushed, first, 0, 3) > 1e-4 && change(pushed, first, 3, 7) < 1e-12);
     await tab.keyboard.down('Shift');
@@ -177,6 +183,37 @@ const tests = {
     await until(tab, () => window.sent.filter((m) => m.type === 'hand').length > 3);
     await tab.keyboard.up('ArrowUp');
     await until(tab, () => window.sent.some((m) => m.type === 'release'));
+    return tab;
+  },
+
+  async 'a gamepad and a SpaceMouse move the hand and release it'(browser) {
+    const tab = await open(browser);
+    const moves = async (begin, end) => {
+      await tab.evaluate(() => (window.sent.length = 0));
+      await tab.evaluate(begin);
+      await until(tab, () => window.sent.filter((m) => m.type === 'hand').length > 3);
+      await tab.evaluate(end);
+      await until(tab, () => window.sent.some((m) => m.type === 'release'));
+    };
+    await moves(() => {
+      const buttons = Array.from({ length: 16 }, () => ({ value: 0 }));
+      navigator.getGamepads = () => [null, { axes: [0, -0.6, 0, 0], buttons }];
+    }, () => (navigator.getGamepads = () => []));
+    await tab.evaluate(() => {
+      const device = Object.assign(new EventTarget(), { opened: true, productName: 'SpaceMouse' });
+      const report = (z) => {
+        const data = new DataView(new ArrayBuffer(6));
+        data.setInt16(4, z, true);
+        device.dispatchEvent(Object.assign(new Event('inputreport'), { reportId: 1, data }));
+      };
+      Object.defineProperty(navigator, 'hid', { value: { requestDevice: async () => [device] } });
+      window.pressCap = () => (window.cap = setInterval(() => report(-200), 20)); // upwards
+      window.releaseCap = () => clearInterval(window.cap);
+    });
+    const [button] = await tab.$$('xpath/.//button[text()="Connect SpaceMouse"]');
+    await button.click();
+    await until(tab, () => /SpaceMouse moves the hand/.test(document.querySelector('.notice.answer').textContent));
+    await moves(() => window.pressCap(), () => window.releaseCap());
     return tab;
   },
 
@@ -272,11 +309,14 @@ const tests = {
     return dark;
   },
 
+};
+
+const speed = {
   async 'draws 30 pictures a second without a graphics card'(browser) {
     const tab = await open(browser);
     await grab(tab);
     let most = 0;
-    for (let second = 0; second < 12 && most < 30; ++second) { // a busy machine needs some to make the page simpler
+    for (let second = 0; second < 12 && most < 30; ++second) { // the first ones make the page simpler
       await tab.mouse.wheel({ deltaY: second % 2 ? -60 : 60 });
       most = Math.max(most, await tab.evaluate(() => new Promise((done) => {
         const { picture } = window.godobjectPage;
@@ -297,7 +337,7 @@ const tests = {
   },
 };
 
-runTests(chromium, softwarePictures, tests).catch((error) => {
+runTests(chromium, softwarePictures, process.env.SPEED === 'yes' ? { ...tests, ...speed } : tests).catch((error) => {
   console.error(error);
   process.exit(1);
 });

@@ -14,7 +14,8 @@ function diagonal(body) {
 export class Picture {
   /**
    * `count`: of motions; `largest`: the force [N] and the torque [Nm] of the longest arrows; `lowest(up)`: the lowest
-   * place along an axis of W that is worth showing [m]; `smoothEdges`: draws edges without steps. Throws an error without WebGL.
+   * place along an axis of W that is worth showing [m]; `smoothEdges`: draws edges without steps. Throws an error
+   * without WebGL.
    */
   constructor(data, canvas, { count, largest, lowest, smoothEdges }) {
     this.data = data;
@@ -150,7 +151,7 @@ export class Picture {
     }));
   }
 
-  /** Sets the pixels of a length of the picture by those of the screen, of which more than 2 by CSS pixel are not drawn. */
+  /** Sets the pixels of a length of the picture by those of the screen, of which at most 2 by CSS pixel count. */
   setSharpness(share) {
     const ratio = share * Math.min(devicePixelRatio, 2);
     if (ratio === this.renderer.getPixelRatio()) return;

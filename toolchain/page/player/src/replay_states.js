@@ -31,5 +31,6 @@ export function lowestPlace(data, up) {
 export function statesAt(data, sample) {
   const at = (columns) => columns.map((column) => column[sample]);
   const device = at(data.device);
-  return data.replays.map(({ pose, force, torque }) => ({ device, god: at(pose), force: at(force), torque: at(torque) }));
+  return data.replays.map(({ pose, force, torque }) =>
+    ({ device, god: at(pose), force: at(force), torque: at(torque) }));
 }

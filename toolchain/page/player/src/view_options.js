@@ -44,7 +44,8 @@ export class ViewOptions {
     this.slider = element('input', { type: 'range', min: 0, max: 1000, 'aria-label': 'Place of the cut',
       oninput: () => this.applyCut() });
     this.place = element('output', { className: 'place' });
-    this.details = element('span', { className: 'details own-keys' }, this.axisChoice, this.slider, this.place, this.both.label);
+    this.details = element('span', { className: 'details own-keys' },
+      this.axisChoice, this.slider, this.place, this.both.label);
     const names = axes.map((axis) => `${axis} up`);
     const up = choice('Axis that points up', names, picture.up, (axis) => picture.setUp(axis));
     this.root.append(this.follow.label, this.cut.label, this.details, up);

@@ -14,7 +14,7 @@ export class Arm extends Group {
       color: colour, roughness: 0.5, metalness: 0.1, transparent: true, opacity: 0.4,
     });
     const tube = new CylinderGeometry(0.8, 1, 1, 24).translate(0, 0.5, 0);
-    const ball = new SphereGeometry(1, 24, 16);
+    const ball = new SphereGeometry(1, 18, 10);
     // The first two hide the back of the arm, so that the others show its outermost layer only.
     this.tubes = [hidden, shown(0x94a3b8)].map((material, i) => new Instances(tube, material, most, 6 + i));
     this.balls = [hidden, shown(0x475569)].map((material, i) => new Instances(ball, material, most, 6 + i));

@@ -9,13 +9,11 @@ function socketAddress() {
 /** The socket to the server. It begins again by itself. `onState`, `onAnswer` and `onChange` take one listener each. */
 export class Connection {
   constructor() {
-    this.online = false;
-    this.attempts = 0;
+    this.online = undefined; // not known yet
     setInterval(() => this.online && performance.now() - this.heard > silence && this.setOnline(false), 500);
   }
 
   open() {
-    this.attempts += 1;
     this.socket = new WebSocket(socketAddress(), 'godobject-live');
     this.socket.addEventListener('message', ({ data }) => this.receive(JSON.parse(data)));
     this.socket.addEventListener('close', () => {
@@ -33,9 +31,8 @@ export class Connection {
   }
 
   setOnline(online) {
-    if (this.online === online && this.attempts === this.shownAttempts) return;
+    if (this.online === online) return;
     this.online = online;
-    this.shownAttempts = this.attempts;
     this.onChange(online);
   }
 

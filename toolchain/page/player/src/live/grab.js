@@ -22,9 +22,10 @@ export class Grab {
     const events = {
       pointerdown: (event) => this.down(event), pointermove: (event) => this.moved(event),
       pointerup: (event) => this.up(event), pointercancel: (event) => this.up(event),
-      wheel: (event) => this.wheel(event),
     };
-    for (const [name, act] of Object.entries(events)) view.addEventListener(name, act, { capture: true, passive: false });
+    for (const [name, act] of Object.entries(events)) view.addEventListener(name, act, { capture: true });
+    // Anywhere, because a pointer that holds the body may leave the picture.
+    addEventListener('wheel', (event) => this.wheel(event), { capture: true, passive: false });
     picture.canvas.addEventListener('contextmenu', (event) => event.preventDefault());
   }
 

@@ -15,7 +15,7 @@ export class Hand {
     this.size = size;
     this.send = send;
     this.wanted = { place: new Vector3(), turn: new Quaternion() }; // of the centre of mass
-    this.target = { place: new Vector3(), turn: new Quaternion() }; // what was sent: limited in speed and lead
+    this.target = { place: new Vector3(), turn: new Quaternion() }; // sent: limited in speed and lead
     this.device = { place: new Vector3(), turn: new Quaternion() };
     this.onGrab = () => {};
   }

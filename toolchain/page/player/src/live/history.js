@@ -37,6 +37,7 @@ export class History {
   forget(before) {
     const old = this.t.findIndex((t) => t >= before);
     if (old < 60) return; // seldom, because it moves all that remains
-    for (const column of [this.t, ...this.keys.flatMap((key) => [this.low[key], this.high[key]])]) column.splice(0, old);
+    const columns = this.keys.flatMap((key) => [this.low[key], this.high[key]]);
+    for (const column of [this.t, ...columns]) column.splice(0, old);
   }
 }

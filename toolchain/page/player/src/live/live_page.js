@@ -21,7 +21,7 @@ import { GamepadRates, KeyRates, Steering } from './steering.js';
 
 const still = { device: [0, 0, 0, 1, 0, 0, 0], god: [0, 0, 0, 1, 0, 0, 0], force: [0, 0, 0], torque: [0, 0, 0] };
 
-/** Returns the lowest place of the moving body along an axis of W while it touches the upper half of the still one [m]. */
+/** Returns the lowest place of the moving body along an axis of W if its centre stays above that of the still one [m]. */
 function lowestPlace({ still: { low, high }, moving }, up) {
   const diameter = new Vector3(...moving.high).distanceTo(new Vector3(...moving.low));
   return Math.min(low[up], (low[up] + high[up] - diameter) / 2);
@@ -76,7 +76,7 @@ function connectHand(parts) {
   const steering = new Steering(picture, hand, instruments, mayGrab);
   notices.showHint(`Drag ${data.moving.name} to move the hand`);
   hand.onGrab = () => notices.showHint('');
-  addEventListener('visibilitychange', () => document.hidden && hand.release());
+  document.addEventListener('visibilitychange', () => document.hidden && hand.release());
   if (SpaceMouse.isPossible()) options.addButton('Connect SpaceMouse', () => connectSpaceMouse(instruments, notices));
   return { hand, grab, steering };
 }
@@ -159,6 +159,7 @@ export function startLive(data, root) {
   const rate = new FrameRate(picture, plots);
   eachFrame((seconds) => {
     const now = performance.now();
+    rate.advance(seconds); // before the picture is drawn, because another sharpness clears it
     parts.steering?.advance(seconds);
     if (picture) {
       if (smooth.latest && !smooth.settled) picture.show([smooth.at(now)]);
@@ -166,6 +167,5 @@ export function startLive(data, root) {
       picture.draw();
     }
     plots.draw(now);
-    rate.advance(seconds);
   });
 }

@@ -8,8 +8,8 @@ export class Notices {
     const notice = (className, ...children) =>
       element('div', { className: `notice ${className}`, hidden: true, role: 'status' }, ...children);
     this.faultText = element('span');
-    this.fault = notice('fault', this.faultText, element('button', { type: 'button', className: 'wide', onclick: reset },
-      'Reset'));
+    const button = element('button', { type: 'button', className: 'wide', onclick: reset }, 'Reset');
+    this.fault = notice('fault', this.faultText, button);
     this.connection = notice('connection');
     this.answer = notice('answer');
     this.hint = notice('hint');

@@ -49,9 +49,9 @@ function plotted(largestTorque) {
       hint: 'Energy that the rendered torques have absorbed from arm and hand. Below zero they have given energy.',
     },
   ];
-  return [...quantities(largestTorque), ...live].map((quantity) => ({
-    ...quantity, range: quantity.logarithmic ? wholeDecades : quantity.key === 'depth' ? calmDepth : calmRange(quantity.key),
-  }));
+  const ranges = { time: wholeDecades, depth: calmDepth };
+  return [...quantities(largestTorque), ...live].map((quantity) =>
+    ({ ...quantity, range: ranges[quantity.key] ?? calmRange(quantity.key) }));
 }
 
 /** Plots of the last seconds. Each keeps the extremes of all cycles between two states. */

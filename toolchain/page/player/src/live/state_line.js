@@ -4,6 +4,8 @@ import { motionColours } from '../theme.js';
 
 const hands = { free: 'nobody moves the hand', yours: 'you move the hand', other: 'another viewer moves the hand' };
 
+const pause = 100; // between two texts of the line of numbers [ms]
+
 /** Writes a text only if it changes. */
 function write(place, text) {
   if (place.textContent !== text) place.textContent = text;
@@ -35,6 +37,11 @@ export class StateLine {
     write(this.mode, modeText(state));
     this.mode.dataset.kind = state.fault ? 'fault' : state.mode === 'running' ? 'running' : 'waiting';
     this.label.show(state.outcome);
+    if (performance.now() - (this.wroteAt ?? 0) >= pause) this.showFacts(state);
+  }
+
+  showFacts(state) {
+    this.wroteAt = performance.now();
     const { time, speed, cycles, lost, hand, viewers } = this.facts;
     write(time, `${fixed(state.t, 1)} s`);
     write(speed, `${fixed(state.speed, 2)} × real time`);

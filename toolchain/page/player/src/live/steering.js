@@ -36,7 +36,8 @@ export class KeyRates {
 
   rates() {
     const sum = [0, 0, 0, 0, 0, 0];
-    for (const key of this.held) (this.shift ? turns : keys)[key].forEach((v, i) => (sum[i + (this.shift ? 3 : 0)] += v));
+    const [shares, first] = this.shift ? [turns, 3] : [keys, 0];
+    for (const key of this.held) shares[key].forEach((v, i) => (sum[first + i] += v));
     return sum;
   }
 }
