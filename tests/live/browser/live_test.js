@@ -9,13 +9,20 @@ const {
 const [, , chromium, address] = process.argv;
 const { host } = new URL(address);
 
-/** Opens the page and waits for a controller that renders. `sent` of the page collects the messages to the server. */
+/**
+ * Opens the page, waits for a controller that renders, and looks at the moving body, wherever other tests have left it.
+ * `sent` of the page collects the messages to the server.
+ */
 async function open(browser, settings) {
   const isOwn = (url) => new URL(url).host === host || /^(data|blob):/.test(url);
   const tab = await openTab(browser, address, isOwn, settings);
   await tab.waitForFunction(() => window.godobjectPage.latest?.mode === 'running');
   await tab.evaluate(() => {
-    const { connection } = window.godobjectPage;
+    const { connection, picture } = window.godobjectPage;
+    const moved = picture.motions[0].place().sub(picture.controls.target);
+    picture.camera.position.add(moved);
+    picture.controls.target.add(moved);
+    picture.controls.update();
     const send = connection.send.bind(connection);
     window.sent = [];
     connection.send = (message) => {
@@ -23,7 +30,14 @@ async function open(browser, settings) {
       send(message);
     };
   });
+  await pause(tab);
   return tab;
+}
+
+function pause(tab, pictures = 5) {
+  return tab.evaluate(async (count) => {
+    for (let i = 0; i < count; ++i) await new Promise((done) => requestAnimationFrame(done));
+  }, pictures);
 }
 
 const latest = (tab, key) => tab.evaluate((name) => window.godobjectPage.latest[name], key);
@@ -43,12 +57,6 @@ function centres(tab) {
       return [box.left + ((x + 1) / 2) * box.width, box.top + ((1 - y) / 2) * box.height];
     });
   });
-}
-
-function pause(tab, pictures = 5) {
-  return tab.evaluate(async (count) => {
-    for (let i = 0; i < count; ++i) await new Promise((done) => requestAnimationFrame(done));
-  }, pictures);
 }
 
 /** Waits for an expression of the page's parts to be true. */

@@ -13,7 +13,7 @@ export class Quantity {
     });
     this.number = element('input', {
       type: 'number', min: 0, step: 'any', 'aria-label': `${name}, ${unit}`, className: 'own-keys',
-      onchange: () => this.choose(this.number.valueAsNumber),
+      oninput: () => (this.isEdited = true), onchange: () => this.choose(this.number.valueAsNumber),
     });
     this.track = element('div', { className: 'bounded' }, this.slider);
     this.root = element('div', { className: 'row quantity' }, element('span', { className: 'quantity-name' }, name),
@@ -35,10 +35,9 @@ export class Quantity {
     this.act(value);
   }
 
-  /** Shows the server's number again after its answer. */
+  /** Shows the server's number again after its answer, unless the viewer already writes another one. */
   settle() {
-    this.isEdited = false;
-    this.write();
+    if (!this.isEdited) this.write();
   }
 
   /** Shows the present number and the boundary, or null, in the same unit. */
