@@ -17,6 +17,7 @@ async function open(browser, settings) {
   const isOwn = (url) => new URL(url).host === host || /^(data|blob):/.test(url);
   const tab = await openTab(browser, address, isOwn, settings);
   await tab.waitForFunction(() => window.godobjectPage.latest?.mode === 'running');
+  await pause(tab);
   await tab.evaluate(() => {
     const { connection, picture } = window.godobjectPage;
     const moved = picture.motions[0].place().sub(picture.controls.target);
