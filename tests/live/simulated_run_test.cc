@@ -45,7 +45,7 @@ TEST_F(SimulatedRunTest, HoldsABallThatAPagePressesOntoAPlate) {
   EXPECT_EQ(last_.outcome, "contact");
   EXPECT_NEAR(last_.H_WS.translation.z(), 0.03, 1e-3);
   EXPECT_LT(last_.H_WD.translation.z(), last_.H_WS.translation.z());
-  EXPECT_GT((run.placement().mapping.H_WR.rotation._transformVector(last_.wrench_R.force)).z(), 2.9);
+  EXPECT_GT((run.placement()->mapping.H_WR.rotation._transformVector(last_.wrench_R.force)).z(), 2.9);
   ASSERT_EQ(run.answer(HandRequest{{Quaternion::Identity(), Vector3(0.0, 0.0, 0.05)}}), "");
   ASSERT_TRUE(
       waits_for(run, [](const LiveSample& s) { return s.outcome == "free" && s.H_WD.translation.z() > 0.045; }));

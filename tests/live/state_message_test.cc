@@ -26,7 +26,7 @@ class StateMessageTest : public test::FolderTest {
   const test::SceneImage image_ = test::ball_over_plate();
   const SceneView scene_ = test::open_scene(image_);
   const firmware::Placement placement_ = firmware::place(config_.workspace, config_.device, scene_.H_MB.translation);
-  StateMessage state_{scene_, placement_};
+  StateMessage state_{scene_, &placement_};
   LiveSample sample_;
 };
 
@@ -68,7 +68,7 @@ TEST_F(StateMessageTest, HasNullForWhatIsNotFinite) {
 TEST_F(StateMessageTest, TurnsTheWrenchIntoTheScene) {
   firmware::Placement turned = placement_;
   turned.mapping.H_WR.rotation = exp_rotation(Vector3(0.0, 0.0, 1.5707963267948966));
-  StateMessage state(scene_, turned);
+  StateMessage state(scene_, &turned);
   sample_.wrench_R = {Vector3(3.0, 0.0, 1.0), Vector3(0.0, 2.0, 0.0)};
   state.add(sample_);
   const json text = json::parse(state.text({}, 1.0, 0) + "}");

@@ -4,6 +4,7 @@
 
 #include "core/device/joint_vector.h"
 #include "godobject/pose.h"
+#include "toolchain/figures/telemetry_log.h"
 
 namespace godobject::live {
 
@@ -24,5 +25,8 @@ struct LiveSample {
   double late = 0.0;      ///< time by which the cycle began late [s]
   double absorbed = 0.0;  ///< energy taken from arm and hand since rendering began; below zero: given [J]
 };
+
+/// Returns the cycle of a telemetry.
+LiveSample sample_of(const figures::TelemetryRow& row);
 
 }  // namespace godobject::live

@@ -21,7 +21,8 @@ class LiveSource {
   LiveSource& operator=(const LiveSource&) = delete;
 
   virtual const SceneView& scene() const = 0;
-  virtual const firmware::Placement& placement() const = 0;
+  /// Returns the arm in the scene; null: none is shown, and wrenches are along the axes of W.
+  virtual const firmware::Placement* placement() const = 0;
 
   /// Appends the cycles since the last call.
   virtual void take(std::vector<LiveSample>& samples) = 0;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -5,7 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,15 +16,13 @@
 #include "firmware/machine/signals.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/command_line/run.h"
-#include "toolchain/files/input_file.h"
-#include "toolchain/files/text_file.h"
+#include "toolchain/files/scene_image.h"
 #include "toolchain/live/live_page.h"
 #include "toolchain/live/live_server.h"
+#include "toolchain/live/recorded_run.h"
 #include "toolchain/live/simulated_run.h"
 #include "toolchain/live/telemetry_follower.h"
 #include "toolchain/page/player_file.h"
-#include "toolchain/scene_compiler/scene_config.h"
-#include "toolchain/viewer/scene_bodies.h"
 
 namespace {
 
@@ -35,6 +34,7 @@ namespace fs = std::filesystem;
 const char* const kFooter = R"(Examples:
   godobject-live bunny-plate.toml lwr-bunny-plate.toml --hand
   godobject-live bunny-plate.toml lwr-bunny-plate.toml --follow logs
+  godobject-live bunny-plate.toml --replay contact.csv --image bunny-plate.scene
 
 Prints an address; open it in a browser. The page shows both bodies, the hand, the god object, forces and contacts, the arm
 and plots. Ctrl-C ends.
@@ -42,7 +42,8 @@ and plots. Ctrl-C ends.
 Without --follow the arm is simulated here, as by godobject-controller, slowed to real time. Its hand repeats
 simulation.path. With --hand the mouse is the hand: drag the moving body. Solver, friction and gains can be changed
 meanwhile. With --follow the page looks at a controller in another process, simulated or real, through the telemetry.csv
-that it writes to DIR. Nothing that a page does reaches that controller or any bus.
+that it writes to DIR. Nothing that a page does reaches that controller or any bus. With --replay the page plays an output of
+godobject-replay or a telemetry.csv, again and again; with CONTROLLER.toml a telemetry shows the arm, too.
 
 The page is served on this machine only, to who has the token in the address. --listen serves it to others: whoever sees
 the address then sees the page, and with --hand moves the simulated arm.
@@ -51,14 +52,16 @@ Exit codes: 0 ended by a signal, 64 usage, 65 bad mesh, scene image or path, 66 
 port cannot be opened or the controller has stopped, 78 bad scene file or configuration.)";
 
 struct Options {
-  std::string scene, controller, image, follow, player;
+  std::string scene, controller, image, follow, replay, player;
   std::string up = "z";
   std::string listen = "127.0.0.1";
   int port = 8642;
   bool hand = false;
 };
 
-firmware::ControllerConfig read_configuration(const Options& options) {
+/// The controller with the image and the folder of the command line; none if none is named.
+std::optional<firmware::ControllerConfig> read_configuration(const Options& options) {
+  if (options.controller.empty()) return {};
   firmware::ControllerConfig config = firmware::read_controller_file(options.controller);
   if (!options.image.empty()) config.scene.image = options.image;
   if (!options.follow.empty()) config.telemetry.folder = options.follow;
@@ -69,9 +72,45 @@ firmware::ControllerConfig read_configuration(const Options& options) {
   return config;
 }
 
-std::unique_ptr<live::LiveSource> make_source(const Options& options, const firmware::ControllerConfig& config) {
-  if (!options.follow.empty()) return std::make_unique<live::TelemetryFollower>(config);
-  return std::make_unique<live::SimulatedRun>(config, options.hand);
+/// What a page shows, and what it says of it.
+struct Shown {
+  std::unique_ptr<live::LiveSource> source;
+  live::LivePage page;  ///< without the bodies
+};
+
+Shown show_controller(const Options& options, const firmware::ControllerConfig& config) {
+  Shown shown;
+  if (options.follow.empty()) {
+    shown.source = std::make_unique<live::SimulatedRun>(config, options.hand);
+  } else {
+    shown.source = std::make_unique<live::TelemetryFollower>(config);
+  }
+  shown.page.start = config.workspace.start;
+  shown.page.force = config.limits.force;
+  shown.page.torque = config.limits.torque;
+  shown.page.period = config.device.bus.period;
+  shown.page.hand = options.hand;
+  shown.page.source = fmt::format("{}, {}", options.follow.empty() ? "simulated arm" : "telemetry of another process",
+                                  fs::path(options.controller).filename().string());
+  return shown;
+}
+
+Shown show_replay(const Options& options, const std::optional<firmware::ControllerConfig>& config) {
+  const fs::path image = config ? config->scene.image : fs::path(options.image);
+  if (image.empty()) throw Failure(ExitCode::kUsage, "--replay wants --image, or a CONTROLLER.toml with scene.image");
+  std::optional<firmware::Placement> placement;
+  if (config) {
+    const auto scene = files::SceneImage::read(image);
+    placement = firmware::place(config->workspace, config->device, scene.scene.H_MB.translation);
+  }
+  auto run = std::make_unique<live::RecordedRun>(options.replay, image, placement);
+  Shown shown;
+  shown.page.start = run->start();
+  shown.page.force = run->largest_force();
+  shown.page.torque = run->largest_torque();
+  shown.page.source = fmt::format("replay, {}", fs::path(options.replay).filename().string());
+  shown.source = std::move(run);
+  return shown;
 }
 
 /// Refuses meshes that are not those of the image, as far as the size of the moving body tells.
@@ -90,32 +129,23 @@ void require_same_scene(const Options& options, const page::PageBodies& bodies, 
                   options.scene, farthest, stored));
 }
 
-std::string make_page(const Options& options, const firmware::ControllerConfig& config,
-                      const live::LiveSource& source) {
+std::string make_page(const Options& options, live::LivePage page, const SceneView& scene) {
   const std::string script = page::read_player(options.player);
-  live::LivePage page;
   page.bodies = page::read_page_bodies(options.scene);
   page.bodies.up_axis = options.up[0] - 'x';
-  require_same_scene(options, page.bodies, source.scene());
-  page.start = config.workspace.start;
-  page.force = config.limits.force;
-  page.torque = config.limits.torque;
-  page.period = config.device.bus.period;
-  page.hand = options.hand;
-  page.source = fmt::format("{}, {}", options.follow.empty() ? "simulated arm" : "telemetry of another process",
-                            fs::path(options.controller).filename().string());
+  require_same_scene(options, page.bodies, scene);
   return live_page(page, fs::path(options.scene).stem().string(), script);
 }
 
 /// The page's side of the connection between source and viewers.
 class Desk {
  public:
-  Desk(const Options& options, const firmware::ControllerConfig& config)
+  Desk(const Options& options, Shown shown)
       : options_(options),
-        source_(make_source(options, config)),
+        source_(std::move(shown.source)),
         message_(source_->scene(), source_->placement()),
         token_(live::make_token()),
-        server_({options.listen, options.port, make_page(options, config, *source_), token_},
+        server_({options.listen, options.port, make_page(options, std::move(shown.page), source_->scene()), token_},
                 {[this](auto viewer, auto message) { return answer(viewer, message); },
                  [this](auto viewer) { leave(viewer); }}) {}
 
@@ -194,11 +224,21 @@ class Desk {
   std::vector<live::LiveSample> samples_;
 };
 
-void serve(const Options& options) {
+/// Refuses options that do not go together.
+void check(const Options& options) {
   if (options.hand && !options.follow.empty()) {
     throw Failure(ExitCode::kUsage, "--hand moves a simulated arm of its own; it does not go with --follow");
   }
-  Desk desk(options, read_configuration(options));
+  if (!options.replay.empty() && (options.hand || !options.follow.empty())) {
+    throw Failure(ExitCode::kUsage, "--replay plays a record; it does not go with --hand or --follow");
+  }
+  if (options.replay.empty() && options.controller.empty()) throw CLI::RequiredError("CONTROLLER.toml or --replay");
+}
+
+void serve(const Options& options) {
+  check(options);
+  const std::optional<firmware::ControllerConfig> config = read_configuration(options);
+  Desk desk(options, options.replay.empty() ? show_controller(options, *config) : show_replay(options, config));
   firmware::catch_end_signals();
   firmware::ignore_write_signals();
   fmt::print("open {}\n", desk.address());
@@ -214,13 +254,13 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   Options options;
   app.add_option("SCENE.toml", options.scene, "scene file with the meshes")->required()->type_name("");
-  app.add_option("CONTROLLER.toml", options.controller, "controller file, as for godobject-controller")
-      ->required()
-      ->type_name("");
+  app.add_option("CONTROLLER.toml", options.controller, "controller file, as for godobject-controller")->type_name("");
   app.add_option("--image", options.image, "scene image, instead of scene.image")->type_name("X.scene");
   app.add_flag("--hand", options.hand, "the mouse moves the hand of the simulated arm");
   app.add_option("--follow", options.follow, "show the controller that writes its telemetry to this folder")
       ->type_name("DIR");
+  app.add_option("--replay", options.replay, "play an output of godobject-replay, or a telemetry.csv")
+      ->type_name("REPLAY.csv");
   app.add_option("--port", options.port, "port of the page; 0: any free one; default: 8642")
       ->check(CLI::Range(0, 65535))
       ->option_text("NUMBER");

@@ -28,7 +28,7 @@ class SimulatedRun final : public LiveSource, private firmware::Companion {
   ~SimulatedRun() override;
 
   const SceneView& scene() const override { return scene_; }
-  const firmware::Placement& placement() const override { return placement_; }
+  const firmware::Placement* placement() const override { return &placement_; }
   void take(std::vector<LiveSample>& samples) override;
   std::optional<LiveSettings> settings() const override;
   double speed() const override { return speed_.load(std::memory_order_relaxed); }

@@ -85,7 +85,7 @@ std::vector<Vector3> arm_points(const LiveSample& sample, const firmware::Placem
   return points;
 }
 
-StateMessage::StateMessage(const SceneView& scene, const firmware::Placement& placement)
+StateMessage::StateMessage(const SceneView& scene, const firmware::Placement* placement)
     : scene_(scene), placement_(placement) {}
 
 void StateMessage::add(const LiveSample& sample) {
@@ -112,7 +112,7 @@ void StateMessage::add(const LiveSample& sample) {
 std::string StateMessage::text(const std::optional<LiveSettings>& settings, double speed, std::uint64_t lost) {
   if (!last_) return "";
   const LiveSample& sample = *last_;
-  const Quaternion& R_WR = placement_.mapping.H_WR.rotation;
+  const Quaternion R_WR = placement_ != nullptr ? placement_->mapping.H_WR.rotation : Quaternion::Identity();
   const Wrench wrench_W{R_WR._transformVector(sample.wrench_R.force), R_WR._transformVector(sample.wrench_R.torque)};
   json message{{"type", "state"},
                {"t", rounded(sample.t, 1e6)},
@@ -130,7 +130,9 @@ std::string StateMessage::text(const std::optional<LiveSettings>& settings, doub
                {"settings", settings_entry(settings)},
                {"cycles", cycles_},
                {"lost", lost}};
-  for (const Vector3& point : arm_points(sample, placement_)) message["arm"].push_back(array_of(point, 1e5));
+  if (placement_ != nullptr) {
+    for (const Vector3& point : arm_points(sample, *placement_)) message["arm"].push_back(array_of(point, 1e5));
+  }
   for (std::size_t i = 0; i < kPlots; ++i) {
     message["plots"][kPlotNames[i]] = {rounded(plots_[i].last, 1e9), rounded(plots_[i].low, 1e9),
                                        rounded(plots_[i].high, 1e9)};

@@ -30,8 +30,8 @@ struct LiveSettings {
 /// since the message before.
 class StateMessage {
  public:
-  /// `scene` and `placement` outlive this object.
-  StateMessage(const SceneView& scene, const firmware::Placement& placement);
+  /// `scene` and `placement` outlive this object. `placement`: as LiveSource::placement.
+  StateMessage(const SceneView& scene, const firmware::Placement* placement);
 
   void add(const LiveSample& sample);
 
@@ -46,7 +46,7 @@ class StateMessage {
   };
 
   const SceneView& scene_;
-  const firmware::Placement& placement_;
+  const firmware::Placement* placement_;
   std::optional<LiveSample> last_;
   std::array<Range, kPlots> plots_;
   std::uint64_t cycles_ = 0;

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "firmware/cycle/fault.h"
 #include "hal/linux/monotonic_clock.h"
 #include "toolchain/command_line/failure.h"
 
@@ -16,31 +15,6 @@ namespace {
 
 constexpr std::size_t kRead = std::size_t{1} << 18;     // at once [bytes]
 constexpr std::size_t kBacklog = std::size_t{1} << 20;  // of a longer file the begin is skipped: some seconds
-
-std::string fault_text(int fault) {
-  const bool known = fault > 0 && fault <= static_cast<int>(firmware::Fault::kComputedLate);
-  return known ? describe(static_cast<firmware::Fault>(fault)) : "";
-}
-
-LiveSample sample_of(const figures::TelemetryRow& row) {
-  LiveSample sample;
-  sample.t = row.cycle.t;
-  sample.mode = row.mode;
-  sample.fault = fault_text(row.fault);
-  sample.outcome = row.cycle.status;
-  sample.share = row.share;
-  const auto joints = std::min<std::size_t>(row.position.size(), kMaxJoints);
-  for (std::size_t i = 0; i < joints; ++i) sample.q[static_cast<Eigen::Index>(i)] = row.position[i];
-  sample.H_WD = row.cycle.H_WD;
-  sample.H_WS = row.cycle.H_WS;
-  sample.wrench_R = row.cycle.wrench;
-  sample.depth = row.cycle.depth;
-  sample.contacts = row.cycle.contacts;
-  sample.computed = row.compute;
-  sample.late = row.late;
-  sample.absorbed = row.absorbed;
-  return sample;
-}
 
 }  // namespace
 

@@ -24,7 +24,7 @@ class TelemetryFollower final : public LiveSource {
   explicit TelemetryFollower(const firmware::ControllerConfig& config);
 
   const SceneView& scene() const override { return scene_; }
-  const firmware::Placement& placement() const override { return placement_; }
+  const firmware::Placement* placement() const override { return &placement_; }
   void take(std::vector<LiveSample>& samples) override;
   std::optional<LiveSettings> settings() const override { return {}; }
   double speed() const override { return speed_; }
