@@ -7,11 +7,11 @@ namespace godobject::live {
 namespace {
 
 constexpr const char* kLooks =
-    "The translucent body follows the hand. The solid body, the god object, stays on the "
-    "surface of the grey one. The red arrow is the force on the hand.";
+    "The translucent body follows the hand. The solid one, the god object, stays on the "
+    "surface of the grey body.";
 constexpr const char* kSteers =
-    "Drag the translucent body with the mouse: it follows the hand. The solid body, the god "
-    "object, stays on the surface of the grey one. The red arrow is the force on the hand.";
+    "Drag the blue body: a hand pulls it along. The solid one, the god object, stays on the "
+    "surface of the grey body.";
 
 }  // namespace
 

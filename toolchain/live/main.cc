@@ -72,7 +72,7 @@ std::optional<firmware::ControllerConfig> read_configuration(const Options& opti
   return config;
 }
 
-/// What a page shows, and what it says of it.
+/// A controller or a record with the words about it.
 struct Shown {
   std::unique_ptr<live::LiveSource> source;
   live::LivePage page;  ///< without the bodies
