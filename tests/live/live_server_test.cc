@@ -22,15 +22,19 @@ namespace {
 /// A server on a thread of its own. It answers "hello" and publishes the number of its tick.
 class LiveServerTest : public testing::Test {
  protected:
-  LiveServerTest() {
-    server_.emplace(
-        LiveServer::Setup{
-            .address = "127.0.0.1", .port = 0, .page = "<p>@HOST@</p>" + std::string(200'000, 'x'), .token = "secret"},
-        LiveServer::Handlers{[this](ViewerNumber, std::string_view message) {
-                               ++received_;
-                               return message == "hello" ? std::string("hello, too") : std::string();
-                             },
-                             [this](ViewerNumber) { ++left_; }});
+  LiveServerTest() { begin(20'000'000); }
+
+  void begin(std::int64_t stalled_us) {
+    server_.emplace(LiveServer::Setup{.address = "127.0.0.1",
+                                      .port = 0,
+                                      .page = "<p>@HOST@</p>" + std::string(200'000, 'x'),
+                                      .token = "secret",
+                                      .stalled_us = stalled_us},
+                    LiveServer::Handlers{[this](ViewerNumber, std::string_view message) {
+                                           ++received_;
+                                           return message == "hello" ? std::string("hello, too") : std::string();
+                                         },
+                                         [this](ViewerNumber) { ++left_; }});
     thread_ = std::jthread([this] { server_->run(1000, [this] { return tick(); }); });
   }
   ~LiveServerTest() override { stop(); }
@@ -162,6 +166,23 @@ TEST_F(LiveServerTest, DoesNotWaitForAStalledViewer) {
   while (last < begin + 600) last = std::stoi(other.hear());
   stop();
   EXPECT_LT(stalled.drain(), 300u * 50'000u);
+}
+
+/// Of two viewers the one that reads stays.
+TEST_F(LiveServerTest, ClosesAStalledViewer) {
+  stop();
+  end_ = false;
+  begin(200'000);
+  width_ = 50'000;
+  PageClient stalled(port());
+  PageClient other(port());
+  ASSERT_EQ(stalled.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  ASSERT_EQ(other.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  publishes_ = true;
+  while (left_ == 0) ASSERT_NE(other.hear(), "");
+  wait_ticks(2);
+  EXPECT_EQ(viewers_, 1u);
+  ASSERT_NE(other.hear(), "");
 }
 
 TEST_F(LiveServerTest, SurvivesRubbish) {

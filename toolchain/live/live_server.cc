@@ -23,8 +23,7 @@ using command::ExitCode;
 using command::Failure;
 
 constexpr std::size_t kMostAnswers = 8;  // that wait for a viewer; more messages than answers taken end it
-constexpr lws_usec_t kStalled_us = 20 * LWS_US_PER_SEC;
-constexpr std::size_t kWrite = 16384;  // of the page, at once [bytes]
+constexpr std::size_t kWrite = 16384;    // of the page, at once [bytes]
 
 /// Compares in a time that does not depend on where the texts differ.
 bool same_text(std::string_view a, std::string_view b) {
@@ -207,7 +206,7 @@ int LiveServer::Connections::write_next(lws* wsi) {
 void LiveServer::Connections::close_stalled() {
   const lws_usec_t now = lws_now_usecs();
   for (const auto& [wsi, viewer] : viewers) {
-    if (viewer.since > 0 && now - viewer.since > kStalled_us) {
+    if (viewer.since > 0 && now - viewer.since > setup.stalled_us) {
       lws_set_timeout(wsi, PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC);
     }
   }

@@ -18,10 +18,11 @@ class LiveServer {
   static constexpr std::size_t kMostViewers = 8;
 
   struct Setup {
-    std::string address = "127.0.0.1";  ///< of the interface; 0.0.0.0: all
-    int port = 0;                       ///< 0: any free one
-    std::string page;                   ///< the document; `@HOST@` in it becomes the host that the browser asked for
-    std::string token;                  ///< that every request must give
+    std::string address = "127.0.0.1";     ///< of the interface; 0.0.0.0: all
+    int port = 0;                          ///< 0: any free one
+    std::string page;                      ///< the document; `@HOST@` in it becomes the host that the browser asked for
+    std::string token;                     ///< that every request must give
+    std::int64_t stalled_us = 20'000'000;  ///< a viewer that takes no message for this long is closed [us]
   };
 
   /// Calls to the owner. `received` returns an answer (JSON) for that viewer; empty: none.

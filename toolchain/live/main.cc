@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -20,6 +18,7 @@
 #include "toolchain/live/live_page.h"
 #include "toolchain/live/live_server.h"
 #include "toolchain/live/recorded_run.h"
+#include "toolchain/live/same_scene.h"
 #include "toolchain/live/simulated_run.h"
 #include "toolchain/live/telemetry_follower.h"
 #include "toolchain/page/player_file.h"
@@ -113,20 +112,12 @@ Shown show_replay(const Options& options, const std::optional<firmware::Controll
   return shown;
 }
 
-/// Refuses meshes that are not those of the image, as far as the size of the moving body tells.
+/// Refuses meshes that are not those of the image, as far as sizes tell.
 void require_same_scene(const Options& options, const page::PageBodies& bodies, const SceneView& scene) {
-  constexpr double kShare = 0.05;  // of the radius; sample points lie on the mesh
-  const Pose H_BM = scene.H_MB.inverse();
-  double farthest = 0.0;
-  for (const Vector3& vertex : bodies.bodies.moving.vertices) farthest = std::max(farthest, (H_BM * vertex).norm());
-  double stored = 0.0;
-  for (std::size_t i = 0; i < scene.pointshell.size; ++i) stored = std::max(stored, scene.pointshell.point(i).norm());
-  if (scene.pointshell.size > 0 && std::abs(stored - farthest) <= kShare * farthest) return;
-  throw Failure(
-      ExitCode::kBadConfig,
-      fmt::format("{}: its moving body reaches {:.4g} m from its centre of mass, that of the scene image {:.4g} m; "
-                  "name the scene file that the image was compiled from",
-                  options.scene, farthest, stored));
+  if (live::is_same_scene(bodies.bodies, scene)) return;
+  throw Failure(ExitCode::kBadConfig, fmt::format("{}: its bodies have other sizes than those of the scene image; name "
+                                                  "the scene file that the image was compiled from",
+                                                  options.scene));
 }
 
 std::string make_page(const Options& options, live::LivePage page, const SceneView& scene) {

@@ -107,16 +107,17 @@ void SimulatedRun::run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
       const std::string stopped = session_->run(*this, requests_);
       if (stop.stop_requested()) return;
-      if (!begin_again_.exchange(false)) {
+      if (!begin_again_) {
         const std::lock_guard lock(mutex_);
         failure_ = stopped.empty() ? "the run has ended" : stopped;
         return;
       }
       session_ = std::make_unique<firmware::Session>(config_, firmware::kSimulatedTransport);
       hand_.reset();
+      begin_again_ = false;
+      requests_.end = false;  // before the loop looks whether to stop: the destructor asks to stop and then to end
       const std::lock_guard lock(mutex_);
       wanted_ = {settings_.solver, settings_.friction, settings_.stiffness, settings_.damping};
-      if (!stop.stop_requested()) requests_.end = false;
     }
   } catch (const std::exception& error) {
     const std::lock_guard lock(mutex_);
@@ -141,7 +142,7 @@ void SimulatedRun::after_cycle(const firmware::CycleTimes& times, const CycleRec
   if (steered_) move_hand(record, arm);
   const double path_end = config_.simulation.begin + arm.path_seconds() + 0.5;
   if (!steered_ && 1e-9 * static_cast<double>(arm.now_ns()) > path_end) restart();
-  keep_to_real_time(arm.now_ns(), record.mode == firmware::Mode::kRunning);
+  keep_to_real_time(arm.now_ns(), record.mode <= firmware::Mode::kEngaging);
 }
 
 /// Shows what the run renders after it could not be changed: this build leaves out what was asked for.
@@ -182,14 +183,17 @@ void SimulatedRun::move_hand(const CycleRecord& record, firmware::SimulatedArm& 
   arm.steer_hand(hand_->pose(), {strength * velocity.translation, strength * velocity.rotation});
 }
 
-/// Waits until the machine's clock has come to the run's time. Before it renders, a run is as fast as it can be. A run
-/// that the machine cannot keep up with is slow, and does not catch up.
-void SimulatedRun::keep_to_real_time(std::int64_t now_ns, bool renders) {
+/// Waits until the machine's clock has come to the run's time. At its start a run is as fast as it can be. One that the
+/// machine cannot keep up with is slow, and catches up a moment at most.
+void SimulatedRun::keep_to_real_time(std::int64_t now_ns, bool starts) {
   constexpr std::int64_t kMeasured_ns = 500'000'000;
+  constexpr std::int64_t kMoment_ns = 50'000'000;
+  constexpr std::int64_t kLongestStart_ns = 10'000'000'000;
   hal::MonotonicClock clock;
   const std::int64_t wall_ns = clock.now_ns();
-  const bool behind = wall_ns - wall_ahead_ns_ > now_ns;
-  if (!renders || behind) wall_ahead_ns_ = wall_ns - now_ns;
+  const bool behind = wall_ns - wall_ahead_ns_ > now_ns + kMoment_ns;
+  const bool hurries = starts && now_ns < kLongestStart_ns;
+  if (hurries || behind) wall_ahead_ns_ = wall_ns - now_ns;
   clock.sleep_until(now_ns + wall_ahead_ns_);
   if (wall_ns - wall_mark_ns_ > kMeasured_ns) {
     speed_ = static_cast<double>(now_ns - mark_ns_) / static_cast<double>(wall_ns - wall_mark_ns_);

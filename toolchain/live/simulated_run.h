@@ -43,7 +43,7 @@ class SimulatedRun final : public LiveSource, private firmware::Companion {
   void keep(LiveSample sample);
   void take_back(const firmware::Rendering& rendering);
   void move_hand(const firmware::CycleRecord& record, firmware::SimulatedArm& arm);
-  void keep_to_real_time(std::int64_t now_ns, bool renders);
+  void keep_to_real_time(std::int64_t now_ns, bool starts);
   void restart();
   std::string change(const ChangeRequest& request);
   /// Largest stiffness that the gain check allows [N/m]. Cost: 0.3 s.
