@@ -89,11 +89,15 @@ EdgeDistance distance_of(const WatchedEdge& first, const WatchedEdge& second) {
   // both places of the common perpendicular, if they lie on the edges
   const Vector3 along_first = first.end[1] - first.end[0];
   const Vector3 along_second = second.end[1] - second.end[0];
-  Eigen::Matrix<double, 3, 2> lines;
-  lines << along_first, -along_second;
-  const Eigen::Vector2d places = lines.colPivHouseholderQr().solve(second.end[0] - first.end[0]);
-  if (places.allFinite() && places.minCoeff() >= 0.0 && places.maxCoeff() <= 1.0) {
-    try_pair(first.end[0] + places[0] * along_first, second.end[0] + places[1] * along_second);
+  const Vector3 between = second.end[0] - first.end[0];
+  const double both = along_first.dot(along_second);
+  const double determinant = along_first.squaredNorm() * along_second.squaredNorm() - both * both;
+  const double on_first = (along_second.squaredNorm() * along_first.dot(between) - both * along_second.dot(between));
+  const double on_second = (both * along_first.dot(between) - along_first.squaredNorm() * along_second.dot(between));
+  const auto is_on_edge = [&](double place) { return place >= 0.0 && place <= determinant; };
+  if (determinant > 0.0 && is_on_edge(on_first) && is_on_edge(on_second)) {
+    try_pair(first.end[0] + on_first / determinant * along_first,
+             second.end[0] + on_second / determinant * along_second);
   }
   const Vector3 apart = best.on_first - best.on_second;
   best.normal = least > 1e-12 ? Vector3(apart / least) : along_first.cross(along_second).stableNormalized();
