@@ -15,6 +15,7 @@
 #include "tests/mcap/written_file.h"
 #include "tests/viewer/boxes.h"
 #include "toolchain/command_line/failure.h"
+#include "toolchain/mcap/cycle_messages.h"
 #include "toolchain/replay/replay.h"
 
 namespace godobject::mcap {

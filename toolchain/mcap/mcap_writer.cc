@@ -63,7 +63,7 @@ std::string offered_qos_profiles(bool latched) {
 McapWriter::McapWriter(files::AtomicFile& file) : file_(file) {
   std::string content;
   append_counted(content, "ros2");
-  append_counted(content, std::string("godobject-mcap ") + GODOBJECT_VERSION);
+  append_counted(content, "godobject-mcap " GODOBJECT_VERSION);
   put(kMagic);
   put(record(Opcode::kHeader, content));
 }

@@ -1,24 +1,17 @@
 #include "toolchain/mcap/record.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
-#include <optional>
-#include <string_view>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/input_file.h"
-#include "toolchain/mcap/message_definitions.h"
-#include "toolchain/mcap/ros_messages.h"
-#include "toolchain/scene_compiler/mesh/box.h"
-#include "toolchain/scene_compiler/mesh/mass_properties.h"
-#include "toolchain/scene_compiler/mesh/mesh_edges.h"
+#include "toolchain/mcap/cycle_messages.h"
 
 namespace godobject::mcap {
 namespace {
@@ -27,45 +20,8 @@ using command::ExitCode;
 using command::Failure;
 using figures::ReplayRow;
 using figures::TelemetryRow;
-using scene_compiler::TriangleMesh;
-
-// The frames of a record.
-constexpr std::string_view kUpright = "upright";  // z points up
-constexpr std::string_view kWorld = "W";
-constexpr std::string_view kDevice = "device";
-constexpr std::string_view kDeviceCentre = "device_centre";
-constexpr std::string_view kGodObject = "god_object";
 
 constexpr double kArrowPeriod = 0.01;  // a viewer draws no more arrows [s]
-
-/// Returns a time [s] of a recording in nanoseconds.
-std::uint64_t nanoseconds(double t) { return static_cast<std::uint64_t>(std::llround(1e9 * t)); }
-
-/// Returns the pose of W in the frame whose z axis points up.
-Pose upright_pose(int up_axis) {
-  Pose H_UW;
-  constexpr double kRight = 0.5 * std::numbers::pi;
-  if (up_axis == 0) H_UW.rotation = exp_rotation(Vector3(0.0, -kRight, 0.0));
-  if (up_axis == 1) H_UW.rotation = exp_rotation(Vector3(kRight, 0.0, 0.0));
-  return H_UW;
-}
-
-/// Returns a marker with the triangles of a mesh.
-Marker body_marker(std::string_view frame, std::string_view name, const TriangleMesh& mesh,
-                   const Eigen::Vector4f& color) {
-  if (mesh.triangles.size() > kMaxTriangles) {
-    throw Failure(ExitCode::kBadData,
-                  fmt::format("{}: has {} triangles, a record shows at most {}; write a scene file with a decimated "
-                              "mesh for the record",
-                              name, mesh.triangles.size(), kMaxTriangles));
-  }
-  Marker marker{.frame = frame, .name = name, .color = color, .points = {}};
-  marker.points.reserve(3 * mesh.triangles.size());
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) marker.points.push_back(mesh.vertices[corner]);
-  }
-  return marker;
-}
 
 double largest_force(const figures::ReplayLog& cycles) {
   double largest = 0.0;
@@ -79,125 +35,57 @@ class RecordWriter {
   RecordWriter(const Recording& recording, McapWriter& writer)
       : recording_(recording),
         writer_(writer),
-        device_(figures::device_poses(recording.cycles)),
-        p_M_(scene_compiler::centre_of_mass(recording.bodies.moving,
-                                            scene_compiler::MeshEdges(recording.bodies.moving).closed())),
-        arrow_length_(scene_compiler::Box::around(recording.bodies.moving.vertices).diagonal()),
-        largest_force_(largest_force(recording.cycles)) {}
+        messages_(recording.bodies, recording.up_axis, largest_force(recording.cycles)) {}
 
   void write() {
     add_topics();
     const std::uint64_t begin_ns = nanoseconds(recording_.cycles.front().t);
-    const std::array upright{FrameTransform{kUpright, kWorld, upright_pose(recording_.up_axis)}};
-    writer_.write(tf_static_, begin_ns, transform_message(begin_ns, upright));
+    put(begin_ns, messages_.upright(begin_ns));
+    put(begin_ns, messages_.bodies(begin_ns));
+    const std::vector<Pose> device = figures::device_poses(recording_.cycles);
     for (std::size_t i = 0; i < recording_.cycles.size(); ++i) {
-      write_motion(i);
-      if (i == 0) write_bodies(begin_ns);
-      write_cycle(i);
-      if (!recording_.controller.empty()) write_controller(recording_.controller[i]);
+      write_cycle(recording_.cycles[i], device[i]);
+      if (!is_replay()) write_controller(recording_.controller[i]);
     }
     writer_.finish();
   }
 
  private:
+  bool is_replay() const { return recording_.controller.empty(); }
+
   void add_topics() {
-    const auto schema = [&](const char* package, const char* type) {
-      return writer_.add_schema(fmt::format("{}/msg/{}", package, type),
-                                message_definition(fmt::format("{}/{}", package, type)));
-    };
-    const auto transforms = schema("tf2_msgs", "TFMessage");
-    const auto markers = schema("visualization_msgs", "MarkerArray");
-    tf_static_ = writer_.add_channel("/tf_static", transforms, true);
-    tf_ = writer_.add_channel("/tf", transforms, false);
-    bodies_ = writer_.add_channel("/bodies", markers, true);
-    arrow_ = writer_.add_channel("/force_arrow", markers, false);
-    wrench_ = writer_.add_channel("/wrench", schema("geometry_msgs", "WrenchStamped"), false);
-    cycle_ = writer_.add_channel("/cycle", schema("godobject_msgs", "Cycle"), false);
-    if (recording_.controller.empty()) {
-      solver_times_ = writer_.add_channel("/solver_times", schema("godobject_msgs", "SolverTimes"), false);
-    } else {
-      joints_ = writer_.add_channel("/joint_states", schema("sensor_msgs", "JointState"), false);
-      controller_ = writer_.add_channel("/controller", schema("godobject_msgs", "Controller"), false);
+    std::map<std::string, McapWriter::Id> schemas;
+    for (const TopicInfo& info : is_replay() ? replay_topics() : controller_topics()) {
+      const std::string name = info.schema_name();
+      if (!schemas.contains(name)) schemas[name] = writer_.add_schema(name, info.schema());
+      channels_[info.topic] = writer_.add_channel(info.name, schemas[name], info.latched);
     }
   }
 
-  void write_bodies(std::uint64_t time_ns) {
-    const TriangleMesh& moving = recording_.bodies.moving;
-    const std::array markers{
-        body_marker(kWorld, "still body", recording_.bodies.still, Eigen::Vector4f(0.7f, 0.7f, 0.7f, 1.0f)),
-        body_marker(kGodObject, "god object", moving, Eigen::Vector4f(0.2f, 0.4f, 0.9f, 1.0f)),
-        body_marker(kDevice, "device pose", moving, Eigen::Vector4f(0.9f, 0.2f, 0.2f, 0.35f))};
-    writer_.write(bodies_, time_ns, marker_message(time_ns, markers));
+  void put(std::uint64_t time_ns, const TopicMessage& message) {
+    writer_.write(channels_.at(message.topic), time_ns, message.bytes);
   }
 
-  void write_motion(std::size_t i) {
-    const ReplayRow& row = recording_.cycles[i];
+  void write_cycle(const ReplayRow& row, const Pose& H_WD) {
     const std::uint64_t time_ns = nanoseconds(row.t);
-    const std::array frames{FrameTransform{kWorld, kDevice, device_[i]}, FrameTransform{kWorld, kGodObject, row.H_WS},
-                            FrameTransform{kWorld, kDeviceCentre, Pose{Quaternion::Identity(), device_[i] * p_M_}}};
-    writer_.write(tf_, time_ns, transform_message(time_ns, frames));
-    writer_.write(wrench_, time_ns, wrench_message(time_ns, kDeviceCentre, row.wrench));
-    if (i > 0 && row.t < next_arrow_) return;
-    next_arrow_ = row.t + kArrowPeriod;
-    const std::array arrow{force_arrow(row.wrench.force)};
-    writer_.write(arrow_, time_ns, marker_message(time_ns, arrow));
-  }
-
-  /// Returns the arrow of a force [N]. The largest force of the recording is as long as the moving body.
-  Marker force_arrow(const Vector3& force) const {
-    Marker marker{.frame = kDeviceCentre,
-                  .name = "force",
-                  .type = Marker::Type::kArrow,
-                  .action = force.isZero() ? Marker::Action::kRemove : Marker::Action::kShow,
-                  .scale = arrow_length_ * Vector3(0.02, 0.05, 0.08),
-                  .color = Eigen::Vector4f(0.9f, 0.1f, 0.3f, 1.0f),
-                  .points = {}};
-    if (!force.isZero()) marker.points = {Vector3::Zero(), arrow_length_ / largest_force_ * force};
-    return marker;
-  }
-
-  void write_cycle(std::size_t i) {
-    const ReplayRow& row = recording_.cycles[i];
-    const std::uint64_t time_ns = nanoseconds(row.t);
-    CdrWriter cycle;
-    append_header(cycle, time_ns, kWorld);
-    cycle.string(row.status);
-    cycle.float64(row.depth);
-    cycle.float64((device_[i] * p_M_ - row.H_WS * p_M_).norm());
-    cycle.uint32(static_cast<std::uint32_t>(std::clamp(row.contacts, 0.0, 1e9)));
-    writer_.write(cycle_, time_ns, cycle.bytes());
-    if (!solver_times_) return;
-    CdrWriter times;
-    append_header(times, time_ns, "");
-    times.float64(1e-9 * row.step1_ns);
-    times.float64(1e-9 * row.solve_ns);
-    writer_.write(*solver_times_, time_ns, times.bytes());
+    const bool has_arrow = row.t >= next_arrow_;
+    if (has_arrow) next_arrow_ = row.t + kArrowPeriod;
+    for (const TopicMessage& message : messages_.cycle(time_ns, row, H_WD)) {
+      if (has_arrow || message.topic != Topic::kForceArrow) put(time_ns, message);
+    }
+    if (is_replay()) put(time_ns, CycleMessages::solver_times(time_ns, row));
   }
 
   void write_controller(const TelemetryRow& row) {
     const std::uint64_t time_ns = nanoseconds(row.cycle.t);
-    writer_.write(joints_, time_ns, joint_message(time_ns, row.position, row.velocity, row.torque));
-    CdrWriter cdr;
-    append_header(cdr, time_ns, "");
-    cdr.string(row.mode);
-    cdr.int32(row.fault);
-    cdr.float64(row.share);
-    cdr.float64(row.late);
-    cdr.float64(row.compute);
-    cdr.float64(row.absorbed);
-    writer_.write(controller_, time_ns, cdr.bytes());
+    for (const TopicMessage& message : CycleMessages::controller(time_ns, row)) put(time_ns, message);
   }
 
   const Recording& recording_;
   McapWriter& writer_;
-  const std::vector<Pose> device_;
-  const Vector3 p_M_;          ///< the moving body's centre of mass [m]
-  const double arrow_length_;  ///< of the largest force [m]
-  const double largest_force_;
+  const CycleMessages messages_;
+  std::map<Topic, McapWriter::Id> channels_;
   double next_arrow_ = 0.0;  ///< [s]
-  McapWriter::Id tf_static_ = 0, tf_ = 0, bodies_ = 0, arrow_ = 0, wrench_ = 0, cycle_ = 0, joints_ = 0,
-                 controller_ = 0;
-  std::optional<McapWriter::Id> solver_times_;  ///< of a replay
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 
 #include "toolchain/figures/replay_log.h"
@@ -18,16 +17,13 @@ struct Recording {
   figures::TelemetryLog controller;  ///< the same cycles, with the arm's columns; empty for a replay
 };
 
-/// Largest number of triangles of a body; each takes 72 bytes of the record.
-inline constexpr std::size_t kMaxTriangles = 200'000;
-
 /// Reads a replay of godobject-replay, or all cycles of a telemetry of godobject-controller. Throws Failure as
 /// read_replay_log does; kNoInput for a pipe, because the file is read twice; kBadData if a time is not in 0 .. 2^31 s,
 /// the range of ROS 2.
 void read_cycles(const std::filesystem::path& file, Recording& recording);
 
 /// Writes the messages of a recording, and finishes the file. README.md lists topics and frames. Throws Failure:
-/// kBadData if a body has more than kMaxTriangles triangles; as McapWriter does.
+/// as CycleMessages::bodies and McapWriter do.
 void write_record(const Recording& recording, McapWriter& writer);
 
 }  // namespace godobject::mcap
