@@ -101,6 +101,8 @@ TEST_F(LiveServerTest, OpensASocketOnlyWithTokenAndOwnOrigin) {
   EXPECT_NE(PageClient(port()).open(""), "HTTP/1.1 101 Switching Protocols");
   EXPECT_NE(PageClient(port()).open("secret", "http://evil.example"), "HTTP/1.1 101 Switching Protocols");
   EXPECT_NE(PageClient(port()).open("secret", "null"), "HTTP/1.1 101 Switching Protocols");
+  const std::string longest = "https://" + std::string(253, 'x') + ":65535";
+  EXPECT_NE(PageClient(port()).open("secret", longest), "HTTP/1.1 101 Switching Protocols");
   EXPECT_EQ(received_, 0);
 }
 

@@ -33,9 +33,10 @@ bool same_text(std::string_view a, std::string_view b) {
 }
 
 std::string header_text(lws* wsi, lws_token_indexes header) {
-  std::array<char, 256> text{};
+  std::string text(static_cast<std::size_t>(lws_hdr_total_length(wsi, header)) + 1, '\0');
   const int length = lws_hdr_copy(wsi, text.data(), static_cast<int>(text.size()), header);
-  return length > 0 ? std::string(text.data(), static_cast<std::size_t>(length)) : "";
+  text.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
+  return text;
 }
 
 std::string argument(lws* wsi, const char* name) {
