@@ -19,7 +19,43 @@
 namespace godobject::live::live_server_test {
 namespace {
 
-/// A server on a thread of its own. It answers "hello" and publishes the number of its tick.
+/// Answers "hello" and shows the number of the server's tick.
+class PageStub final : public ViewerProtocol {
+ public:
+  ServerMessages joined(ViewerNumber) override { return {}; }
+  std::optional<ServerMessages> received(ViewerNumber, std::string_view message, bool binary) override {
+    if (binary) return {};
+    ++messages;
+    return message == "hello" ? ServerMessages{{"hello, too"}} : ServerMessages{};
+  }
+  ServerMessages state(ViewerNumber viewer) override {
+    if (viewer == 1) ++states_of_first;
+    return {{fmt::format("{:{}}", ticks.load(), width.load())}};
+  }
+  void left(ViewerNumber) override { ++left_count; }
+
+  std::atomic<int> ticks{0}, width{1}, messages{0}, left_count{0}, states_of_first{0};
+};
+
+/// Greets, answers each message by a text, and shows a binary message that all viewers share.
+class FoxgloveStub final : public ViewerProtocol {
+ public:
+  ServerMessages joined(ViewerNumber) override { return {{"welcome"}, {"channels"}}; }
+  std::optional<ServerMessages> received(ViewerNumber, std::string_view, bool binary) override {
+    ++messages;
+    return ServerMessages{{binary ? "no data" : "no such message"}};
+  }
+  ServerMessages state(ViewerNumber viewer) override {
+    if (viewer == 1) ++states_of_first;
+    return {{fmt::format("to {}: ", viewer), shared, true}};
+  }
+  void left(ViewerNumber) override {}
+
+  std::atomic<int> messages{0}, states_of_first{0};
+  const std::shared_ptr<const std::string> shared = std::make_shared<const std::string>(300'000, 'x');
+};
+
+/// A server on a thread of its own.
 class LiveServerTest : public testing::Test {
  protected:
   LiveServerTest() { begin(20'000'000); }
@@ -30,20 +66,15 @@ class LiveServerTest : public testing::Test {
                                       .page = "<p>@HOST@</p>" + std::string(200'000, 'x'),
                                       .token = "secret",
                                       .stalled_us = stalled_us},
-                    LiveServer::Handlers{[this](ViewerNumber, std::string_view message) {
-                                           ++received_;
-                                           return message == "hello" ? std::string("hello, too") : std::string();
-                                         },
-                                         [this](ViewerNumber) { ++left_; }});
+                    LiveServer::Protocols{pages_, foxglove_});
     thread_ = std::jthread([this] { server_->run(1000, [this] { return tick(); }); });
   }
   ~LiveServerTest() override { stop(); }
 
   bool tick() {
-    ++ticks_;
+    ++pages_.ticks;
     viewers_ = server_->viewers();
-    const auto text = [this](ViewerNumber) { return fmt::format("{:{}}", ticks_.load(), width_.load()); };
-    if (publishes_) server_->publish(text);
+    if (publishes_) server_->publish();
     return !end_;
   }
 
@@ -58,13 +89,13 @@ class LiveServerTest : public testing::Test {
 
   /// Waits until the server has done `count` more ticks.
   void wait_ticks(int count) const {
-    const int until = ticks_ + count;
-    while (ticks_ < until) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const int until = pages_.ticks + count;
+    while (pages_.ticks < until) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
-  std::atomic<int> ticks_{0}, received_{0}, left_{0};
+  PageStub pages_;
+  FoxgloveStub foxglove_;
   std::atomic<std::size_t> viewers_{0};
-  std::atomic<int> width_{1};
   std::atomic<bool> publishes_{false}, end_{false};
   std::optional<LiveServer> server_;
   std::jthread thread_;
@@ -103,7 +134,7 @@ TEST_F(LiveServerTest, OpensASocketOnlyWithTokenAndOwnOrigin) {
   EXPECT_NE(PageClient(port()).open("secret", "null"), "HTTP/1.1 101 Switching Protocols");
   const std::string longest = "https://" + std::string(253, 'x') + ":65535";
   EXPECT_NE(PageClient(port()).open("secret", longest), "HTTP/1.1 101 Switching Protocols");
-  EXPECT_EQ(received_, 0);
+  EXPECT_EQ(pages_.messages, 0);
 }
 
 TEST_F(LiveServerTest, AnswersOneViewerAndShowsStatesToAll) {
@@ -136,10 +167,10 @@ TEST_F(LiveServerTest, ClosesAViewerThatSendsTooMuchOrBinary) {
   pieces.say("x", false);
   for (int i = 0; i < 5; ++i) pieces.say(std::string(1000, 'x'), false, 0);
   EXPECT_EQ(pieces.hear(), "");
-  EXPECT_EQ(received_, 0);
+  EXPECT_EQ(pages_.messages, 0);
   wait_ticks(5);
   EXPECT_EQ(viewers_, 0u);
-  EXPECT_EQ(left_, 3);
+  EXPECT_EQ(pages_.left_count, 3);
 }
 
 TEST_F(LiveServerTest, HasRoomForEightViewers) {
@@ -154,10 +185,10 @@ TEST_F(LiveServerTest, HasRoomForEightViewers) {
   EXPECT_EQ(PageClient(port()).open("secret"), "HTTP/1.1 101 Switching Protocols");
 }
 
-/// A viewer that reads nothing neither delays the ticks nor the other viewer, and memory does not grow with it: after
-/// it reads again, it gets far fewer states than there were.
+/// A viewer that reads nothing neither delays the ticks nor the other viewer, and memory does not grow with it: it gets
+/// far fewer states than there were.
 TEST_F(LiveServerTest, DoesNotWaitForAStalledViewer) {
-  width_ = 50'000;
+  pages_.width = 50'000;
   PageClient stalled(port());
   PageClient other(port());
   ASSERT_EQ(stalled.open("secret"), "HTTP/1.1 101 Switching Protocols");
@@ -167,6 +198,7 @@ TEST_F(LiveServerTest, DoesNotWaitForAStalledViewer) {
   int last = begin;
   while (last < begin + 600) last = std::stoi(other.hear());
   stop();
+  EXPECT_LT(pages_.states_of_first, 300);
   EXPECT_LT(stalled.drain(), 300u * 50'000u);
 }
 
@@ -175,16 +207,102 @@ TEST_F(LiveServerTest, ClosesAStalledViewer) {
   stop();
   end_ = false;
   begin(200'000);
-  width_ = 50'000;
+  pages_.width = 50'000;
   PageClient stalled(port());
   PageClient other(port());
   ASSERT_EQ(stalled.open("secret"), "HTTP/1.1 101 Switching Protocols");
   ASSERT_EQ(other.open("secret"), "HTTP/1.1 101 Switching Protocols");
   publishes_ = true;
-  while (left_ == 0) ASSERT_NE(other.hear(), "");
+  while (pages_.left_count == 0) ASSERT_NE(other.hear(), "");
   wait_ticks(2);
   EXPECT_EQ(viewers_, 1u);
   ASSERT_NE(other.hear(), "");
+}
+
+constexpr const char* kFoxglove = "foxglove.websocket.v1";
+
+TEST_F(LiveServerTest, SpeaksTheProtocolThatAViewerAsksFor) {
+  for (const char* wanted : {kFoxglove, "foxglove.sdk.v1", "foxglove.websocket.v1, foxglove.sdk.v1",
+                             "foxglove.of.tomorrow, foxglove.sdk.v1"}) {
+    for (const char* path : {"/?token=secret", "/foxglove?token=secret"}) {
+      PageClient client(port());
+      const std::string head = client.open_socket(path, wanted);
+      EXPECT_TRUE(head.starts_with("HTTP/1.1 101")) << wanted << ": " << head;
+      EXPECT_NE(head.find("Sec-WebSocket-Protocol: foxglove."), std::string::npos) << head;
+      EXPECT_EQ(head.find(","), std::string::npos) << head;
+      EXPECT_EQ(client.hear(), "welcome");
+      EXPECT_EQ(client.hear(), "channels");
+      EXPECT_FALSE(client.heard_binary());
+    }
+  }
+  PageClient client(port());
+  EXPECT_FALSE(client.open_socket("/?token=secret", "foxglove.of.tomorrow").starts_with("HTTP/1.1 101"));
+}
+
+TEST_F(LiveServerTest, OpensAFoxgloveSocketOnlyWithTokenAndKnownOrigin) {
+  const auto opens = [this](const std::string& origin, const char* path = "/?token=secret") {
+    return PageClient(port()).open_socket(path, kFoxglove, origin).starts_with("HTTP/1.1 101");
+  };
+  for (const char* origin : {"", "file://", "https://app.foxglove.dev", "http://127.0.0.1:1", "http://localhost:8080",
+                             "http://localhost", "http://127.0.0.1:9999"}) {
+    EXPECT_TRUE(opens(origin)) << origin;
+    EXPECT_FALSE(opens(origin, "/?token=guess")) << origin;
+    EXPECT_FALSE(opens(origin, "/foxglove")) << origin;
+  }
+  for (const char* origin :
+       {"null", "http://evil.example", "https://app.foxglove.dev.evil.example", "http://app.foxglove.dev",
+        "https://evil.example/https://app.foxglove.dev", "http://localhost.evil.example", "http://localhost:80.evil",
+        "http://127.0.0.1.evil.example", "file://evil", "http://evil.example?http://localhost"}) {
+    EXPECT_FALSE(opens(origin)) << origin;
+  }
+  EXPECT_NE(PageClient(port()).open("secret", "https://app.foxglove.dev"), "HTTP/1.1 101 Switching Protocols")
+      << "a page's socket, which may move the hand";
+}
+
+TEST_F(LiveServerTest, SendsLargeBinaryMessagesWhole) {
+  PageClient a(port());
+  PageClient b(port());
+  for (PageClient* client : {&a, &b}) {
+    client->open_socket("/?token=secret", kFoxglove);
+    client->hear();
+    client->hear();
+  }
+  a.say("rubbish");
+  EXPECT_EQ(a.hear(), "no such message");
+  a.say("rubbish", true, 2);
+  EXPECT_EQ(a.hear(), "no data");
+  publishes_ = true;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(a.hear(), "to 1: " + *foxglove_.shared);
+    EXPECT_TRUE(a.heard_binary());
+    EXPECT_EQ(b.hear(), "to 2: " + *foxglove_.shared);
+  }
+}
+
+/// As DoesNotWaitForAStalledViewer: the stalled one speaks Foxglove's protocol, and gets 300 kB at each tick.
+TEST_F(LiveServerTest, DoesNotWaitForAStalledFoxgloveViewer) {
+  PageClient stalled(port());
+  PageClient other(port());
+  stalled.open_socket("/?token=secret", kFoxglove);
+  ASSERT_EQ(other.open("secret"), "HTTP/1.1 101 Switching Protocols");
+  publishes_ = true;
+  const int begin = std::stoi(other.hear());
+  int last = begin;
+  while (last < begin + 600) last = std::stoi(other.hear());
+  stop();
+  EXPECT_LT(foxglove_.states_of_first, 100);
+  EXPECT_LT(stalled.drain(), 100u * 300'000u);
+}
+
+/// Its answers wait, and their number is bounded.
+TEST_F(LiveServerTest, ClosesAViewerThatAsksWithoutReading) {
+  PageClient flood(port());
+  flood.open_socket("/?token=secret", kFoxglove);
+  publishes_ = true;
+  wait_ticks(100);
+  for (int i = 0; i < 100; ++i) flood.say("rubbish");
+  while (viewers_ > 0) wait_ticks(1);
+  EXPECT_LT(foxglove_.messages, 40);
 }
 
 TEST_F(LiveServerTest, SurvivesRubbish) {
@@ -199,9 +317,12 @@ TEST_F(LiveServerTest, SurvivesRubbish) {
 }
 
 TEST(LiveServerStart, NamesACureIfThePortIsTaken) {
-  const LiveServer first({.address = "127.0.0.1", .port = 0, .page = "", .token = "a"}, {});
+  PageStub pages;
+  FoxgloveStub foxglove;
+  const LiveServer first({.address = "127.0.0.1", .port = 0, .page = "", .token = "a"}, {pages, foxglove});
   try {
-    const LiveServer second({.address = "127.0.0.1", .port = first.port(), .page = "", .token = "a"}, {});
+    const LiveServer second({.address = "127.0.0.1", .port = first.port(), .page = "", .token = "a"},
+                            {pages, foxglove});
     ADD_FAILURE() << "two servers on one port";
   } catch (const command::Failure& failure) {
     EXPECT_EQ(failure.exit_code(), command::ExitCode::kUnavailable);

@@ -13,7 +13,7 @@
 
 namespace godobject::live {
 
-/// A browser's side of a connection, written from RFC 6455 and without the library of the server.
+/// A viewer's side of a connection, written from RFC 6455 and without the library of the server.
 class PageClient {
  public:
   explicit PageClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -45,13 +45,17 @@ class PageClient {
     return head;
   }
 
-  /// Opens the web socket. Returns the first line of the response.
+  /// Opens the web socket. `origin`: empty for a program that is no browser. Returns the head of the response.
+  std::string open_socket(const std::string& path, const std::string& protocol, const std::string& origin = "") {
+    return get(path,
+               "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+               "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Protocol: " +
+                   protocol + "\r\n" + (origin.empty() ? "" : "Origin: " + origin + "\r\n"));
+  }
+
+  /// Opens the web socket as a page. Returns the first line of the response.
   std::string open(const std::string& token, const std::string& origin = "http://127.0.0.1:1") {
-    const std::string head = get("/socket?token=" + token,
-                                 "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
-                                 "Sec-WebSocket-Protocol: godobject-live\r\nOrigin: " +
-                                     origin + "\r\n");
+    const std::string head = open_socket("/socket?token=" + token, "godobject-live", origin);
     return head.substr(0, head.find('\r'));
   }
 
@@ -71,12 +75,14 @@ class PageClient {
     send(frame);
   }
 
-  /// Returns the next text message; empty if the server closes.
+  /// Returns the next message, text or binary, of pieces of up to 65535 bytes; empty if the server closes.
   std::string hear() {
+    std::string message;
     for (;;) {
       if (!need(2)) return "";
       const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(received_[i]); };
       const int opcode = byte(0) & 15;
+      const bool is_last = (byte(0) & 0x80) != 0;
       std::size_t length = byte(1) & 127;
       std::size_t begin = 2;
       if (length == 126) {
@@ -85,12 +91,16 @@ class PageClient {
         begin = 4;
       }
       if (!need(begin + length)) return "";
-      const std::string text = received_.substr(begin, length);
+      if (opcode <= 2) message += received_.substr(begin, length);
+      if (opcode == 1 || opcode == 2) heard_binary_ = opcode == 2;
       received_.erase(0, begin + length);
       if (opcode == 8) return "";
-      if (opcode == 1) return text;
+      if (opcode <= 2 && is_last) return message;
     }
   }
+
+  /// True if the last message was binary.
+  bool heard_binary() const { return heard_binary_; }
 
   /// Reads until the server closes, or until there are `most` bytes. Returns the number of bytes.
   std::size_t drain(std::size_t most = std::size_t{1} << 26) {
@@ -116,6 +126,7 @@ class PageClient {
 
   int socket_;
   bool connected_ = false;
+  bool heard_binary_ = false;
   std::string received_;
 };
 

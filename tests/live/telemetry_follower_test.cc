@@ -22,7 +22,8 @@ const char* const kHeader =
 
 std::string row(double t) {
   return fmt::format(
-      "{:.6f},3,25,running,0,1,contact,4,0,0.5,-0.25,9,9,8,8,1,2,3,1,0,0,0,4,5,6,0.5,0.5,0.5,0.5,7,8,9,0.1,0.2,0.3,-1e-"
+      "{:.6f},3,25,running,0,1,contact,4,0,0.5,-0.25,9,10,7,8,1,2,3,1,0,0,0,4,5,6,0.5,0.5,0.5,0.5,7,8,9,0.1,0.2,0.3,-"
+      "1e-"
       "5,"
       "0.01\n",
       t);
@@ -71,6 +72,8 @@ TEST_F(TelemetryFollowerTest, ReadsEachColumn) {
   EXPECT_EQ(sample.contacts, 4.0);
   EXPECT_EQ(sample.q[0], 0.5);
   EXPECT_EQ(sample.q[1], -0.25);
+  EXPECT_EQ(sample.qd.head<2>(), Eigen::Vector2d(9.0, 10.0));
+  EXPECT_EQ(sample.torque.head<2>(), Eigen::Vector2d(7.0, 8.0));
   EXPECT_EQ(sample.H_WD.translation, Vector3(1.0, 2.0, 3.0));
   EXPECT_EQ(sample.H_WD.rotation.w(), 1.0);
   EXPECT_EQ(sample.H_WS.translation, Vector3(4.0, 5.0, 6.0));
@@ -137,6 +140,7 @@ TEST_F(TelemetryFollowerTest, DescribesFaults) {
   follower_->take(samples);
   ASSERT_EQ(samples.size(), 3u);
   EXPECT_EQ(samples[0].fault, "");
+  EXPECT_EQ(samples[1].fault_number, 17);
   EXPECT_EQ(samples[1].fault, describe(static_cast<firmware::Fault>(17)));
   EXPECT_EQ(samples[2].fault, "");
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "firmware/cycle/fault.h"
 
@@ -13,6 +14,13 @@ std::string fault_text(int fault) {
   return known ? describe(static_cast<firmware::Fault>(fault)) : "";
 }
 
+JointVector joint_vector(const std::vector<double>& values) {
+  JointVector joints = JointVector::Zero();
+  const auto count = std::min<std::size_t>(values.size(), kMaxJoints);
+  for (std::size_t i = 0; i < count; ++i) joints[static_cast<Eigen::Index>(i)] = values[i];
+  return joints;
+}
+
 }  // namespace
 
 LiveSample sample_of(const figures::TelemetryRow& row) {
@@ -20,10 +28,12 @@ LiveSample sample_of(const figures::TelemetryRow& row) {
   sample.t = row.cycle.t;
   sample.mode = row.mode;
   sample.fault = fault_text(row.fault);
+  sample.fault_number = row.fault;
   sample.outcome = row.cycle.status;
   sample.share = row.share;
-  const auto joints = std::min<std::size_t>(row.position.size(), kMaxJoints);
-  for (std::size_t i = 0; i < joints; ++i) sample.q[static_cast<Eigen::Index>(i)] = row.position[i];
+  sample.q = joint_vector(row.position);
+  sample.qd = joint_vector(row.velocity);
+  sample.torque = joint_vector(row.torque);
   sample.H_WD = row.cycle.H_WD;
   sample.H_WS = row.cycle.H_WS;
   sample.wrench_R = row.cycle.wrench;

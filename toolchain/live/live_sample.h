@@ -10,14 +10,17 @@ namespace godobject::live {
 
 /// One cycle of a controller, as a live page shows it.
 struct LiveSample {
-  double t = 0.0;                       ///< time of the cycle [s]
-  std::string mode;                     ///< of the supervisor, one word
-  std::string fault;                    ///< the reason for a stop; empty: none
-  std::string outcome;                  ///< of the god object's cycle, one word
-  double share = 0.0;                   ///< share of the computed wrench that is rendered [0, 1]
-  JointVector q = JointVector::Zero();  ///< joint positions [rad]
-  Pose H_WD;                            ///< the moving mesh at the device pose
-  Pose H_WS;                            ///< the moving mesh at the god object's pose
+  double t = 0.0;                            ///< time of the cycle [s]
+  std::string mode;                          ///< of the supervisor, one word
+  std::string fault;                         ///< the reason for a stop; empty: none
+  int fault_number = 0;                      ///< as in telemetry; 0: none
+  std::string outcome;                       ///< of the god object's cycle, one word
+  double share = 0.0;                        ///< share of the computed wrench that is rendered [0, 1]
+  JointVector q = JointVector::Zero();       ///< joint positions [rad]
+  JointVector qd = JointVector::Zero();      ///< joint velocities [rad/s]
+  JointVector torque = JointVector::Zero();  ///< joint torques, sent [Nm]
+  Pose H_WD;                                 ///< the moving mesh at the device pose
+  Pose H_WS;                                 ///< the moving mesh at the god object's pose
   Wrench wrench_R;     ///< on the hand, along the axes of the room, about the moving body's centre of mass [N, Nm]
   double depth = 0.0;  ///< of the god object's deepest sample point, positive inside [m]
   double contacts = 0.0;

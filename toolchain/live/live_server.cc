@@ -7,7 +7,10 @@
 #include <array>
 #include <cstring>
 #include <deque>
+#include <iterator>
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,8 +25,9 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-constexpr std::size_t kMostAnswers = 8;  // that wait for a viewer; more messages than answers taken end it
-constexpr std::size_t kWrite = 16384;    // of the page, at once [bytes]
+constexpr std::size_t kMostWaiting = 32;  // messages to a viewer that does not take them; a further answer ends it
+constexpr std::size_t kWrite = 16384;     // at once [bytes]
+constexpr unsigned kFoxglove = 1;         // lws_protocols::id; that of the page is 0
 
 /// Compares in a time that does not depend on where the texts differ.
 bool same_text(std::string_view a, std::string_view b) {
@@ -53,6 +57,35 @@ std::string with_host(std::string page, const std::string& host) {
   return page;
 }
 
+/// True for an origin on this machine, with any port.
+bool is_local(std::string_view origin) {
+  for (const std::string_view host : {"http://localhost", "http://127.0.0.1"}) {
+    if (!origin.starts_with(host)) continue;
+    const std::string_view port = origin.substr(host.size());
+    return port.empty() || (port[0] == ':' && port.find_first_not_of("0123456789", 1) == std::string_view::npos);
+  }
+  return false;
+}
+
+/// True for the origins of Foxglove and Lichtblick: the web application, desktop applications, and a server on this
+/// machine.
+bool is_of_foxglove(std::string_view origin) {
+  return origin == "https://app.foxglove.dev" || origin == "file://" || is_local(origin);
+}
+
+/// Copies a part of a message, from `begin` on.
+void copy_part(const ServerMessage& message, std::size_t begin, std::span<unsigned char> part) {
+  const std::string_view head = std::string_view(message.head).substr(std::min(begin, message.head.size()));
+  const std::size_t of_head = head.copy(reinterpret_cast<char*>(part.data()), part.size());
+  if (of_head == part.size()) return;
+  message.body->copy(reinterpret_cast<char*>(part.data()) + of_head, part.size() - of_head,
+                     begin + of_head - message.head.size());
+}
+
+std::size_t size_of(const ServerMessage& message) {
+  return message.head.size() + (message.body ? message.body->size() : 0);
+}
+
 /// True if it is a name or an address with a port, so that it may stand in a header.
 bool is_host(std::string_view host) {
   const auto fits = [](char c) {
@@ -68,10 +101,11 @@ struct LiveServer::Connections {
   /// A web socket.
   struct Viewer {
     ViewerNumber number = 0;
-    std::deque<std::string> answers;
-    std::string state;     ///< that waits
+    ViewerProtocol* protocol = nullptr;
+    std::deque<ServerMessage> waiting;
+    std::size_t sent = 0;  ///< of the first one [bytes]
     std::string received;  ///< pieces of a message
-    lws_usec_t since = 0;  ///< the oldest unsent message waits [us]; 0: none does
+    lws_usec_t since = 0;  ///< the viewer has taken nothing [us]; 0: nothing waits
   };
 
   /// A request for the page.
@@ -85,8 +119,11 @@ struct LiveServer::Connections {
     Connections* connections = nullptr;
   };
 
+  Connections(Setup server_setup, Protocols server_protocols)
+      : setup(std::move(server_setup)), protocols(server_protocols) {}
+
   Setup setup;
-  Handlers handlers;
+  Protocols protocols;
   lws_context* context = nullptr;
   std::map<lws*, Viewer> viewers;
   std::map<lws*, Download> downloads;
@@ -101,17 +138,23 @@ struct LiveServer::Connections {
 
   bool has_token(lws* wsi) const { return same_text(argument(wsi, "token"), setup.token); }
 
+  static bool speaks_foxglove(lws* wsi) { return lws_get_protocol(wsi)->id == kFoxglove; }
+
   /// A page of another origin must not use a token that it has found out; programs that are no browser send no origin.
   bool may_connect(lws* wsi) const {
     const std::string origin = header_text(wsi, WSI_TOKEN_ORIGIN);
-    const bool foreign = !origin.empty() && origin != "http://" + header_text(wsi, WSI_TOKEN_HOST);
-    return has_token(wsi) && !foreign && viewers.size() < kMostViewers;
+    const bool own = origin.empty() || origin == "http://" + header_text(wsi, WSI_TOKEN_HOST);
+    const bool known = own || (speaks_foxglove(wsi) && is_of_foxglove(origin));
+    return has_token(wsi) && known && viewers.size() < kMostViewers;
   }
 
   int begin_download(lws* wsi, std::string_view path);
   int continue_download(lws* wsi);
+  void join(lws* wsi);
+  void leave(lws* wsi);
   int receive(lws* wsi, std::string_view piece);
   int write_next(lws* wsi);
+  void send(lws* wsi, Viewer& viewer, ServerMessages messages);
   void send_later(lws* wsi, Viewer& viewer);
   void close_stalled();
 };
@@ -171,35 +214,64 @@ void LiveServer::Connections::send_later(lws* wsi, Viewer& viewer) {
   lws_callback_on_writable(wsi);
 }
 
+void LiveServer::Connections::send(lws* wsi, Viewer& viewer, ServerMessages messages) {
+  if (messages.empty()) return;
+  std::move(messages.begin(), messages.end(), std::back_inserter(viewer.waiting));
+  send_later(wsi, viewer);
+}
+
+void LiveServer::Connections::join(lws* wsi) {
+  Viewer& viewer = viewers[wsi];
+  viewer.number = ++last_number;
+  viewer.protocol = speaks_foxglove(wsi) ? &protocols.foxglove : &protocols.page;
+  send(wsi, viewer, viewer.protocol->joined(viewer.number));
+}
+
+void LiveServer::Connections::leave(lws* wsi) {
+  const auto found = viewers.find(wsi);
+  if (found == viewers.end()) return;
+  const Viewer viewer = std::move(found->second);
+  viewers.erase(found);
+  viewer.protocol->left(viewer.number);
+}
+
 /// Joins the pieces of a message. A viewer that sends too much, or does not take its answers, is closed.
 int LiveServer::Connections::receive(lws* wsi, std::string_view piece) {
-  Viewer& viewer = viewers[wsi];
+  Viewer& viewer = viewers.at(wsi);
   viewer.received += piece;
-  if (viewer.received.size() > kLongestMessage || lws_frame_is_binary(wsi) != 0) return -1;
+  if (viewer.received.size() > kLongestMessage) return -1;
   if (lws_is_final_fragment(wsi) == 0 || lws_remaining_packet_payload(wsi) != 0) return 0;
-  std::string answer = handlers.received(viewer.number, std::exchange(viewer.received, {}));
-  if (answer.empty()) return 0;
-  if (viewer.answers.size() == kMostAnswers) return -1;
-  viewer.answers.push_back(std::move(answer));
-  send_later(wsi, viewer);
+  const std::string message = std::exchange(viewer.received, {});
+  std::optional<ServerMessages> answers =
+      viewer.protocol->received(viewer.number, message, lws_frame_is_binary(wsi) != 0);
+  if (!answers || viewer.waiting.size() + answers->size() > kMostWaiting) return -1;
+  send(wsi, viewer, std::move(*answers));
   return 0;
 }
 
+/// Writes a part of a message: a viewer takes a large one piece by piece, and none is copied as a whole.
 int LiveServer::Connections::write_next(lws* wsi) {
-  Viewer& viewer = viewers[wsi];
-  std::string text;
-  if (!viewer.answers.empty()) {
-    text = std::move(viewer.answers.front());
-    viewer.answers.pop_front();
-  } else {
-    text = std::exchange(viewer.state, {});
+  Viewer& viewer = viewers.at(wsi);
+  if (viewer.waiting.empty()) return 0;
+  const ServerMessage& message = viewer.waiting.front();
+  const std::size_t rest = size_of(message) - viewer.sent;
+  std::vector<unsigned char> buffer(LWS_PRE + std::min(kWrite, rest));
+  const std::span part = std::span(buffer).subspan(LWS_PRE);
+  copy_part(message, viewer.sent, part);
+  const bool is_last = part.size() == rest;
+  const int flags =
+      lws_write_ws_flags(message.binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT, viewer.sent == 0 ? 1 : 0, is_last ? 1 : 0);
+  if (lws_write(wsi, part.data(), part.size(), static_cast<lws_write_protocol>(flags)) <
+      static_cast<int>(part.size())) {
+    return -1;
   }
-  if (text.empty()) return 0;
   viewer.since = 0;
-  std::vector<unsigned char> buffer(LWS_PRE + text.size());
-  std::memcpy(buffer.data() + LWS_PRE, text.data(), text.size());
-  if (lws_write(wsi, buffer.data() + LWS_PRE, text.size(), LWS_WRITE_TEXT) < static_cast<int>(text.size())) return -1;
-  if (!viewer.answers.empty() || !viewer.state.empty()) send_later(wsi, viewer);
+  viewer.sent += part.size();
+  if (is_last) {
+    viewer.waiting.pop_front();
+    viewer.sent = 0;
+  }
+  if (!viewer.waiting.empty()) send_later(wsi, viewer);
   return 0;
 }
 
@@ -223,20 +295,10 @@ int on_event(lws* wsi, lws_callback_reasons reason, void* /*user*/, void* in, st
     case LWS_CALLBACK_HTTP_WRITEABLE: return Connections::of(wsi).continue_download(wsi);
     case LWS_CALLBACK_CLOSED_HTTP: Connections::of(wsi).downloads.erase(wsi); return 0;
     case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION: return Connections::of(wsi).may_connect(wsi) ? 0 : 1;
-    case LWS_CALLBACK_ESTABLISHED: {
-      Connections& connections = Connections::of(wsi);
-      connections.viewers[wsi].number = ++connections.last_number;
-      return 0;
-    }
+    case LWS_CALLBACK_ESTABLISHED: Connections::of(wsi).join(wsi); return 0;
     case LWS_CALLBACK_RECEIVE: return Connections::of(wsi).receive(wsi, text());
     case LWS_CALLBACK_SERVER_WRITEABLE: return Connections::of(wsi).write_next(wsi);
-    case LWS_CALLBACK_CLOSED: {
-      Connections& connections = Connections::of(wsi);
-      const ViewerNumber number = connections.viewers[wsi].number;
-      connections.viewers.erase(wsi);
-      connections.handlers.left(number);
-      return 0;
-    }
+    case LWS_CALLBACK_CLOSED: Connections::of(wsi).leave(wsi); return 0;
     default: return 0;
   }
 }
@@ -255,13 +317,14 @@ void on_timer(lws_sorted_usec_list_t* timer) {
 
 }  // namespace
 
-LiveServer::LiveServer(Setup setup, Handlers handlers) : connections_(std::make_unique<Connections>()) {
+LiveServer::LiveServer(Setup setup, Protocols protocols)
+    : connections_(std::make_unique<Connections>(std::move(setup), protocols)) {
   static const lws_protocols kProtocols[] = {
       {"http", &on_event<Connections>, 0, 0, 0, nullptr, 0},
       {"godobject-live", &on_event<Connections>, 0, kLongestMessage, 0, nullptr, 0},
+      {"foxglove.websocket.v1", &on_event<Connections>, 0, kLongestMessage, kFoxglove, nullptr, 0},
+      {"foxglove.sdk.v1", &on_event<Connections>, 0, kLongestMessage, kFoxglove, nullptr, 0},
       {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
-  connections_->setup = std::move(setup);
-  connections_->handlers = std::move(handlers);
   lws_set_log_level(0, nullptr);
   lws_context_creation_info info{};
   info.port = connections_->setup.port;
@@ -301,10 +364,9 @@ void LiveServer::run(std::int64_t interval_us, const std::function<bool()>& tick
   }
 }
 
-void LiveServer::publish(const std::function<std::string(ViewerNumber)>& text_of) {
+void LiveServer::publish() {
   for (auto& [wsi, viewer] : connections_->viewers) {
-    viewer.state = text_of(viewer.number);
-    connections_->send_later(wsi, viewer);
+    if (viewer.waiting.empty()) connections_->send(wsi, viewer, viewer.protocol->state(viewer.number));
   }
 }
 

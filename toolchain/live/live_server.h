@@ -1,18 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
+
+#include "toolchain/live/viewer_protocol.h"
 
 namespace godobject::live {
 
-/// The number of a viewer, the connection of one page: from 1, never used again.
-using ViewerNumber = std::uint64_t;
-
-/// Serves one page, and a web socket to each page that is open. One thread; no call waits for a viewer: whoever is slow
-/// misses states.
+/// Serves one page, and web sockets to pages that are open and to programs that speak Foxglove's protocol. One thread;
+/// no call waits for a viewer: whoever is slow misses states.
 class LiveServer {
  public:
   static constexpr std::size_t kMostViewers = 8;
@@ -25,14 +24,15 @@ class LiveServer {
     std::int64_t stalled_us = 20'000'000;  ///< a viewer that takes no message for this long is closed [us]
   };
 
-  /// Calls to the owner. `received` returns an answer (JSON) for that viewer; empty: none.
-  struct Handlers {
-    std::function<std::string(ViewerNumber, std::string_view message)> received;
-    std::function<void(ViewerNumber)> left;
+  /// The protocols, which outlive the server: `page` is `godobject-live`, `foxglove` is `foxglove.websocket.v1` or
+  /// `foxglove.sdk.v1`, as the client asks for.
+  struct Protocols {
+    ViewerProtocol& page;
+    ViewerProtocol& foxglove;
   };
 
   /// Opens the port. Throws command::Failure (kUnavailable) naming the address and a cure if it cannot.
-  LiveServer(Setup setup, Handlers handlers);
+  LiveServer(Setup setup, Protocols protocols);
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;
@@ -40,12 +40,11 @@ class LiveServer {
   int port() const noexcept;
   std::size_t viewers() const noexcept;
 
-  /// Serves until `tick`, which is called every `interval_us`, returns false. `tick` and the handlers must not throw.
+  /// Serves until `tick`, which is called every `interval_us`, returns false. `tick` must not throw.
   void run(std::int64_t interval_us, const std::function<bool()>& tick);
 
-  /// Sends a state to every viewer that has taken the one before, and else in its place. `text_of` returns the message
-  /// for a viewer.
-  void publish(const std::function<std::string(ViewerNumber)>& text_of);
+  /// Sends the state of its protocol to every viewer that has taken all messages before. Others miss it.
+  void publish();
 
  private:
   struct Connections;

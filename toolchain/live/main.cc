@@ -2,21 +2,21 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "firmware/machine/signals.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/command_line/run.h"
 #include "toolchain/files/scene_image.h"
+#include "toolchain/live/foxglove_viewers.h"
 #include "toolchain/live/live_page.h"
 #include "toolchain/live/live_server.h"
+#include "toolchain/live/page_viewers.h"
 #include "toolchain/live/recorded_run.h"
 #include "toolchain/live/same_scene.h"
 #include "toolchain/live/simulated_run.h"
@@ -43,6 +43,10 @@ simulation.path. With --hand the mouse is the hand: drag the moving body. Solver
 meanwhile. With --follow the page looks at a controller in another process, simulated or real, through the telemetry.csv
 that it writes to DIR. Nothing that a page does reaches that controller or any bus. With --replay the page plays an output of
 godobject-replay or a telemetry.csv, again and again; with CONTROLLER.toml a telemetry shows the arm, too.
+
+Prints a second address, ws://..., for Foxglove and Lichtblick: there choose "Open connection", "Foxglove WebSocket", and
+paste the address with its token. In a 3D panel choose the display frame upright, and switch on /bodies and /force_arrow.
+These programs only look. Topics: toolchain/mcap/README.md.
 
 The page is served on this machine only, to who has the token in the address. --listen serves it to others: whoever sees
 the address then sees the page, and with --hand moves the simulated arm.
@@ -120,30 +124,37 @@ void require_same_scene(const Options& options, const page::PageBodies& bodies, 
                                                   options.scene));
 }
 
-std::string make_page(const Options& options, live::LivePage page, const SceneView& scene) {
+page::PageBodies read_bodies(const Options& options, const SceneView& scene) {
+  page::PageBodies bodies = page::read_page_bodies(options.scene);
+  bodies.up_axis = options.up[0] - 'x';
+  require_same_scene(options, bodies, scene);
+  return bodies;
+}
+
+std::string make_page(const Options& options, live::LivePage page, const page::PageBodies& bodies) {
   const std::string script = page::read_player(options.player);
-  page.bodies = page::read_page_bodies(options.scene);
-  page.bodies.up_axis = options.up[0] - 'x';
-  require_same_scene(options, page.bodies, scene);
+  page.bodies = bodies;
   return live_page(page, fs::path(options.scene).stem().string(), script);
 }
 
-/// The page's side of the connection between source and viewers.
+/// The connection between source and viewers.
 class Desk {
  public:
   Desk(const Options& options, Shown shown)
       : options_(options),
         source_(std::move(shown.source)),
-        message_(source_->scene(), source_->placement()),
+        bodies_(read_bodies(options, source_->scene())),
+        pages_(*source_),
+        foxglove_(bodies_.bodies, bodies_.up_axis, shown.page.force, source_->placement()),
         token_(live::make_token()),
-        server_({options.listen, options.port, make_page(options, std::move(shown.page), source_->scene()), token_},
-                {[this](auto viewer, auto message) { return answer(viewer, message); },
-                 [this](auto viewer) { leave(viewer); }}) {}
+        server_({options.listen, options.port, make_page(options, std::move(shown.page), bodies_), token_},
+                {pages_, foxglove_}) {}
 
+  /// Host, port and token, behind the scheme of an address.
   std::string address() const {
     const bool everywhere = options_.listen == "0.0.0.0";
-    return fmt::format("http://{}:{}/?token={}", everywhere ? "ADDRESS-OF-THIS-MACHINE" : options_.listen,
-                       server_.port(), token_);
+    return fmt::format("{}:{}/?token={}", everywhere ? "ADDRESS-OF-THIS-MACHINE" : options_.listen, server_.port(),
+                       token_);
   }
 
   void run() {
@@ -167,51 +178,24 @@ class Desk {
   bool tick() {
     samples_.clear();
     source_->take(samples_);
-    for (const live::LiveSample& sample : samples_) message_.add(sample);
+    for (const live::LiveSample& sample : samples_) pages_.add(sample);
     if (!samples_.empty() && server_.viewers() > 0) publish();
     return source_->failure().empty() && !firmware::signal_requests().end;
   }
 
   void publish() {
-    const std::string text = message_.text(source_->settings(), source_->speed(), source_->lost());
-    server_.publish([&](live::ViewerNumber viewer) {
-      const char* const hand = holder_ == 0 ? "free" : holder_ == viewer ? "yours" : "other";
-      return fmt::format("{},\"hand\":\"{}\",\"viewers\":{}}}", text, hand, server_.viewers());
-    });
-  }
-
-  std::string answer(live::ViewerNumber viewer, std::string_view message) {
-    const auto request = live::read_request(message);
-    if (const auto* error = std::get_if<std::string>(&request)) return refusal(*error);
-    return carry_out(viewer, std::get<live::Request>(request));
-  }
-
-  /// One viewer at a time has the hand: the first that moves it, until it releases the hand or leaves.
-  std::string carry_out(live::ViewerNumber viewer, const live::Request& request) {
-    const bool of_hand = std::holds_alternative<live::HandRequest>(request);
-    if (of_hand && holder_ != 0 && holder_ != viewer) return refusal("another viewer has the hand");
-    const std::string why_not = source_->answer(request);
-    if (!why_not.empty()) return refusal(why_not);
-    if (of_hand) holder_ = viewer;
-    if (std::holds_alternative<live::ReleaseRequest>(request)) leave(viewer);
-    return of_hand ? "" : nlohmann::json{{"type", "answer"}, {"ok", true}, {"text", ""}}.dump();
-  }
-
-  void leave(live::ViewerNumber viewer) {
-    if (holder_ == viewer) holder_ = 0;
-  }
-
-  static std::string refusal(const std::string& why) {
-    const nlohmann::json answer{{"type", "answer"}, {"ok", false}, {"text", why}};
-    return answer.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    pages_.make_state(server_.viewers());
+    foxglove_.show(samples_.back());
+    server_.publish();
   }
 
   const Options& options_;
   std::unique_ptr<live::LiveSource> source_;
-  live::StateMessage message_;
+  const page::PageBodies bodies_;
+  live::PageViewers pages_;
+  live::FoxgloveViewers foxglove_;
   std::string token_;
   live::LiveServer server_;
-  live::ViewerNumber holder_ = 0;  // of the hand; 0: nobody
   std::vector<live::LiveSample> samples_;
 };
 
@@ -232,7 +216,7 @@ void serve(const Options& options) {
   Desk desk(options, options.replay.empty() ? show_controller(options, *config) : show_replay(options, config));
   firmware::catch_end_signals();
   firmware::ignore_write_signals();
-  fmt::print("open {}\n", desk.address());
+  fmt::print("open http://{0}\nor, in Foxglove or Lichtblick, ws://{0}\n", desk.address());
   std::fflush(stdout);
   desk.run();
 }

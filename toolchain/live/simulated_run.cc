@@ -59,9 +59,12 @@ LiveSample sample_of(const firmware::CycleTimes& times, const CycleRecord& recor
   sample.t = 1e-9 * static_cast<double>(times.deadline_ns);
   sample.mode = name(record.mode);
   sample.fault = fault_text(record);
+  sample.fault_number = static_cast<int>(record.fault);
   sample.outcome = name(record.outcome);
   sample.share = record.share;
   sample.q = record.q;
+  sample.qd = record.qd;
+  sample.torque = record.torque;
   sample.H_WD = record.H_WM;
   sample.H_WS = record.god_object_W;
   sample.wrench_R = record.F_G_R;

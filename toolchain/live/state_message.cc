@@ -70,6 +70,11 @@ json points_entry(const SceneView& scene, const LiveSample& sample, const Wrench
 
 }  // namespace
 
+Wrench wrench_in_scene(const LiveSample& sample, const firmware::Placement* placement) {
+  const Quaternion R_WR = placement != nullptr ? placement->mapping.H_WR.rotation : Quaternion::Identity();
+  return {R_WR._transformVector(sample.wrench_R.force), R_WR._transformVector(sample.wrench_R.torque)};
+}
+
 std::vector<Vector3> arm_points(const LiveSample& sample, const firmware::Placement& placement) {
   const ArmKinematics arm = forward_kinematics(placement.device.model, sample.q);
   // relative to the tool, because the clutch may have moved the room in the scene
@@ -112,8 +117,7 @@ void StateMessage::add(const LiveSample& sample) {
 std::string StateMessage::text(const std::optional<LiveSettings>& settings, double speed, std::uint64_t lost) {
   if (!last_) return "";
   const LiveSample& sample = *last_;
-  const Quaternion R_WR = placement_ != nullptr ? placement_->mapping.H_WR.rotation : Quaternion::Identity();
-  const Wrench wrench_W{R_WR._transformVector(sample.wrench_R.force), R_WR._transformVector(sample.wrench_R.torque)};
+  const Wrench wrench_W = wrench_in_scene(sample, placement_);
   json message{{"type", "state"},
                {"t", rounded(sample.t, 1e6)},
                {"speed", rounded(speed, 1e3)},

@@ -53,6 +53,9 @@ class StateMessage {
   bool fresh_ = true;  ///< no cycle since the last message
 };
 
+/// Returns the wrench on the hand about the moving body's centre of mass, along the axes of W [N, Nm].
+Wrench wrench_in_scene(const LiveSample& sample, const firmware::Placement* placement);
+
 /// Returns the places of the arm's joints and of its tool in the scene, from the base on [m].
 std::vector<Vector3> arm_points(const LiveSample& sample, const firmware::Placement& placement);
 
