@@ -59,6 +59,17 @@ TEST_F(OverlapTest, CancelsWhatContradictsAndKeepsTheRest) {
   EXPECT_EQ(out.rotation, Vector3::Zero());
 }
 
+/// A point at which the field is flat says nothing of a way out, behind one that does, too.
+TEST_F(OverlapTest, IgnoresPointsWithoutGradient) {
+  add(Vector3::Zero(), Vector3::UnitX(), 1e-5);
+  add(Vector3(0.01, 0.0, 0.0), Vector3::UnitZ(), 2e-5);
+  const Motion out = way_out<SampleDirection>();
+  add(Vector3(0.0, 0.02, 0.0), Vector3::Zero(), 3e-5);
+  const Motion again = way_out<SampleDirection>();
+  EXPECT_EQ(again.translation, out.translation);
+  EXPECT_EQ(again.rotation, out.rotation);
+}
+
 /// Pushed along x only, it goes to the device along y and z, and hardly along x: with the weight 0.002 of 2.002.
 TEST_F(OverlapTest, GoesToTheDeviceWhereNothingPushes) {
   add(Vector3::Zero(), Vector3::UnitX(), 1e-9);

@@ -78,7 +78,14 @@ TEST(CouplingSpace, GivesTheWorkOfAPushAndTheMotionOfALoadInAnyMetric) {
     push_load << push, point.cross(push) / gyration;
     EXPECT_LT((space.target(Vector6(load + push_load)) - space.target(load) - space.gradient(push, point)).norm(),
               1e-12);
+    const Vector3 other = random.in_cube(1.0), other_point = random.in_cube(0.1);
+    EXPECT_LT((space.gradient(push, point, other, other_point) - space.gradient(push, point) -
+               space.gradient(other, other_point))
+                  .norm(),
+              1e-12);
     space.reset();
+    EXPECT_EQ(space.gradient(push, point), push_load);
+    EXPECT_EQ(space.gradient(push, point, Vector3::Zero(), other_point), push_load);
     EXPECT_EQ(space.target(load), load);
     EXPECT_EQ(space.plain(load), load);
     EXPECT_EQ(space.gyration(), gyration);
