@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "firmware/controller/companion.h"
 #include "firmware/controller/cycle_setup.h"
 #include "firmware/controller/drive_choice.h"
 #include "firmware/controller/operator_notice.h"
@@ -202,40 +201,6 @@ void Session::run_in_virtual_time(const RunSetup& setup, hal::Clock& clock, RunR
     if (hand) hand->write_row(arm->now_ns(), arm->hand_work());
   });
   if (hand) hand->close();
-}
-
-std::string Session::run(Companion& companion, RunRequests& requests) {
-  hal::MonotonicClock stopwatch;
-  RunSetup setup = run_setup({}, stopwatch);
-  setup.cycles = 0;
-  const std::unique_ptr<hal::Clock> clock = link_->make_clock();
-  if (!link_->start(*clock, requests.end)) return "";
-  run_accompanied(setup, *clock, requests, companion);
-  link_->stop();
-  return describe_stop();
-}
-
-void Session::run_accompanied(const RunSetup& setup, hal::Clock& clock, RunRequests& requests, Companion& companion) {
-  SimulatedArm& arm = *link_->simulated_arm();
-  TelemetryRecord record;
-  run_controller(setup, clock, *cycle_, requests, ring_, report_, [&] {
-    while (ring_.pop(record)) {
-      companion.after_cycle(record.times, record.cycle, report_.computed_ns, arm, *this);
-    }
-  });
-}
-
-Rendering Session::rendering() const noexcept {
-  return {cycle_->solver(), cycle_->friction(), scene_.settings.stiffness, scene_.settings.damping};
-}
-
-bool Session::change(const Rendering& rendering) noexcept {
-  const format::Settings before = scene_.settings;
-  scene_.settings.stiffness = rendering.stiffness;
-  scene_.settings.damping = rendering.damping;
-  if (valid_gains(scene_.settings) && cycle_->start(rendering.solver, rendering.friction) == Status::kOk) return true;
-  scene_.settings = before;
-  return false;
 }
 
 std::string Session::describe_stop() const {

@@ -42,11 +42,11 @@ class Session {
   /// cannot be started, a right is missing or a log cannot be made.
   std::string run(const std::optional<double>& duration, RunRequests& requests);
 
-  /// The same, accompanied: the arm must be simulated, in virtual time. Without `duration` the run lasts until
-  /// `requests.end`. No file is written.
+  /// The same until `requests.end`, accompanied. No file is written. Throws command::Failure (kInternal) before any
+  /// drive is started if the arm is not simulated in virtual time.
   std::string run(Companion& companion, RunRequests& requests);
 
-  /// Renders with another solver or other gains from the next cycle on; the god object starts again at the device pose.
+  /// Renders with another solver or other gains from the next cycle on; the god object goes on from its place.
   /// Only for a Companion, between two cycles. The gain check is not made. Returns false, without effect, if image or
   /// build lack the solver or friction, or if a gain is out of the range of an image.
   bool change(const Rendering& rendering) noexcept;

@@ -24,12 +24,15 @@ ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) no
       passivity_(with_delay(setup.passivity, drives.delay() / setup.period)) {}
 
 Status ControlCycle::start(Solver solver, bool friction) noexcept {
+  const Pose before = god_object_.mesh_pose();
   const Status status = god_object_.start(Scene::of(*setup_.scene), solver, friction, setup_.memory);
   if (status != Status::kOk) return status;
   setup_.solver = solver;
   setup_.friction = friction;
   god_object_.set_work_budget(setup_.work_budget);
-  return status;
+  if (!mapping_ || !supervisor_.renders()) return status;
+  CycleReport ignored;  // of a cycle that begins and ends where the god object was: from there it goes on
+  return god_object_.update({before, {}}, ignored);
 }
 
 // clang-format off: the steps stand in a column

@@ -104,7 +104,8 @@ class ControlCycle {
   Status start() noexcept { return start(setup_.solver, setup_.friction); }
 
   /// Starts the god object again, before the first `run_once` or between two of them, with the gains that the scene has
-  /// now. Statuses as above; then nothing is changed. Not for a real-time loop: it takes milliseconds.
+  /// now. While it renders the god object goes on from its place. Statuses as above; then nothing is changed. Not for a
+  /// real-time loop: it takes milliseconds.
   Status start(Solver solver, bool friction) noexcept;
   Solver solver() const noexcept { return setup_.solver; }
   bool friction() const noexcept { return setup_.friction; }

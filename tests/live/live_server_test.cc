@@ -32,8 +32,12 @@ class PageStub final : public ViewerProtocol {
     if (viewer == 1) ++states_of_first;
     return {{fmt::format("{:{}}", ticks.load(), width.load())}};
   }
-  void left(ViewerNumber) override { ++left_count; }
+  void left(ViewerNumber viewer) override {
+    last_left = viewer;
+    ++left_count;
+  }
 
+  std::atomic<ViewerNumber> last_left{0};
   std::atomic<int> ticks{0}, width{1}, messages{0}, left_count{0}, states_of_first{0};
 };
 
@@ -126,6 +130,56 @@ TEST_F(LiveServerTest, GivesNothingToOthers) {
   }
 }
 
+/// A name that leads here although it is not ours, and characters that would end a header or a policy.
+TEST_F(LiveServerTest, GivesNothingToOtherNames) {
+  for (const char* host : {"localhost", "localhost:1", "127.0.0.1", "192.168.0.7:8642"}) {
+    EXPECT_TRUE(PageClient(port()).get("/?token=secret", "", host).starts_with("HTTP/1.1 200")) << host;
+  }
+  for (const char* host : {"evil.example", "evil.example:1", "127.0.0.1.evil", "127.0.0.1:1;x", "127.0.0.1 *", "'self'",
+                           "localhost:x", "localhost:", ":1", "127.0.0.1:123456"}) {
+    EXPECT_TRUE(PageClient(port()).get("/?token=secret", "", host).starts_with("HTTP/1.1 403")) << host;
+  }
+}
+
+TEST_F(LiveServerTest, GoesOnAfterARefusal) {
+  PageClient client(port());
+  const std::string head = client.get("/");
+  ASSERT_TRUE(head.starts_with("HTTP/1.1 403"));
+  const std::size_t at = head.find("content-length: ");
+  ASSERT_NE(at, std::string::npos) << head;
+  client.skip(static_cast<std::size_t>(std::stoi(head.substr(at + 16))));
+  EXPECT_TRUE(client.get("/?token=secret").starts_with("HTTP/1.1 200"));
+}
+
+/// Browsers send the cookies of all ports of a host.
+TEST_F(LiveServerTest, ReadsLongHeaders) {
+  const std::string cookies = "Cookie: a=" + std::string(9000, 'x') + "\r\n";
+  EXPECT_TRUE(PageClient(port()).get("/?token=secret", cookies).starts_with("HTTP/1.1 200"));
+}
+
+/// HTTP/2 without a token: two streams without an end, and data on both, which stopped the process once.
+TEST_F(LiveServerTest, SpeaksNoOtherVersionOfHttp) {
+  PageClient client(port());
+  client.send(
+      "GET /?token=bad HTTP/1.1\r\nHost: 127.0.0.1:1\r\nConnection: Upgrade, HTTP2-Settings\r\nUpgrade: h2c\r\n"
+      "HTTP2-Settings: AAMAAABkAARAAAAAAAIAAAAA\r\n\r\n");
+  client.send("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n");
+  const auto frame = [](std::string_view payload, char type, char flags, char stream) {
+    std::string text(9, '\0');
+    text[2] = static_cast<char>(payload.size());
+    text[3] = type;
+    text[4] = flags;
+    text[8] = stream;
+    return text.append(payload);
+  };
+  client.send(frame("", 4, 0, 0));
+  const std::string_view headers = "\x82\x84\x86\x41\x01x";  // GET, /, http, x
+  for (const char stream : {'\3', '\5'}) client.send(frame(headers, 1, 4, stream));
+  for (const char stream : {'\3', '\5'}) client.send(frame("data", 0, 0, stream));
+  wait_ticks(20);
+  EXPECT_EQ(PageClient(port()).open("secret"), "HTTP/1.1 101 Switching Protocols");
+}
+
 TEST_F(LiveServerTest, OpensASocketOnlyWithTokenAndOwnOrigin) {
   EXPECT_EQ(PageClient(port()).open("secret"), "HTTP/1.1 101 Switching Protocols");
   EXPECT_NE(PageClient(port()).open("guess"), "HTTP/1.1 101 Switching Protocols");
@@ -216,6 +270,7 @@ TEST_F(LiveServerTest, ClosesAStalledViewer) {
   while (pages_.left_count == 0) ASSERT_NE(other.hear(), "");
   wait_ticks(2);
   EXPECT_EQ(viewers_, 1u);
+  EXPECT_EQ(pages_.last_left, 1u);
   ASSERT_NE(other.hear(), "");
 }
 

@@ -34,8 +34,8 @@ class PageClient {
   void send(std::string_view bytes) const { (void)::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
 
   /// Sends a request and returns the head of the response; empty if the server closes instead.
-  std::string get(const std::string& path, const std::string& more = "") {
-    send("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:1\r\n" + more + "\r\n");
+  std::string get(const std::string& path, const std::string& more = "", const std::string& host = "127.0.0.1:1") {
+    send("GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n" + more + "\r\n");
     while (received_.find("\r\n\r\n") == std::string::npos) {
       if (!receive()) return "";
     }
@@ -43,6 +43,11 @@ class PageClient {
     const std::string head = received_.substr(0, end);
     received_.erase(0, end);
     return head;
+  }
+
+  /// Reads and forgets bytes.
+  void skip(std::size_t bytes) {
+    if (need(bytes)) received_.erase(0, bytes);
   }
 
   /// Opens the web socket. `origin`: empty for a program that is no browser. Returns the head of the response.

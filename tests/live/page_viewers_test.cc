@@ -43,6 +43,14 @@ class SourceStub final : public LiveSource {
   const firmware::Placement placement_;
 };
 
+/// A clock that a test sets.
+class SetClock final : public hal::Clock {
+ public:
+  std::int64_t now_ns() noexcept override { return now; }
+  void sleep_until(std::int64_t) noexcept override {}
+  std::int64_t now = 0;
+};
+
 class PageViewersTest : public test::FolderTest {
  protected:
   /// Returns the answer to a message; null: none.
@@ -63,8 +71,33 @@ class PageViewersTest : public test::FolderTest {
 
   const std::string move_ = R"({"type":"hand","pose":[0,0,0,1,0,0,0]})";
   SourceStub source_{ball_in_hand(folder_)};
-  PageViewers viewers_{source_};
+  SetClock clock_;
+  PageViewers viewers_{source_, clock_};
 };
+
+/// A page that vanishes silently loses the hand.
+TEST_F(PageViewersTest, TakesTheHandFromASilentPage) {
+  answer(1, move_);
+  clock_.now += PageViewers::kPatience_ns - 1;
+  EXPECT_EQ(hand(1), "yours");
+  answer(1, move_);
+  clock_.now += PageViewers::kPatience_ns - 1;
+  EXPECT_EQ(hand(1), "yours");
+  clock_.now += 2;
+  EXPECT_EQ(hand(1), "free");
+}
+
+/// Also while no cycles come.
+TEST_F(PageViewersTest, ShowsTheLastStateToANewPage) {
+  EXPECT_TRUE(viewers_.joined(1).empty()) << "nothing is known yet";
+  LiveSample sample;
+  sample.mode = "stopped";
+  viewers_.add(sample);
+  viewers_.make_state(1);
+  const ServerMessages first = viewers_.joined(2);
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_EQ(json::parse(first.at(0).head)["mode"], "stopped");
+}
 
 TEST_F(PageViewersTest, GivesTheHandToOneAtATime) {
   EXPECT_EQ(hand(1), "free");

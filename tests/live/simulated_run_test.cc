@@ -80,6 +80,27 @@ TEST_F(SimulatedRunTest, ChangesTheSolverWhileItRuns) {
   EXPECT_EQ(last_.mode, "running");
 }
 
+/// Whatever is changed while the hand presses: the body stays on the plate, and the force goes on.
+TEST_F(SimulatedRunTest, HoldsThePlateThroughEachChange) {
+  SimulatedRun run(config_, true);
+  ASSERT_TRUE(waits_for(run, runs));
+  ASSERT_EQ(run.answer(press_), "");
+  ASSERT_TRUE(waits_for(run, [](const LiveSample& s) { return s.outcome == "contact"; }));
+  for (const ChangeRequest& change :
+       {ChangeRequest{.stiffness = 500.0}, ChangeRequest{.friction = true}, ChangeRequest{.solver = Solver::kCorrected},
+        ChangeRequest{.solver = Solver::kContact}, ChangeRequest{.friction = false}, ChangeRequest{.damping = 2.0},
+        ChangeRequest{.stiffness = 1000.0}}) {
+    ASSERT_EQ(run.answer(change), "");
+    const double settled = last_.t + 0.6;
+    ASSERT_TRUE(waits_for(run, [&](const LiveSample& s) {
+      EXPECT_GT(s.H_WS.translation.z(), 0.0285) << s.t;
+      EXPECT_NE(s.outcome, "start_inside") << s.t;
+      return s.t > settled;
+    }));
+    EXPECT_GT(last_.wrench_R.force.norm(), 2.0);
+  }
+}
+
 /// Softer gains give less force at the same place.
 TEST_F(SimulatedRunTest, ChangesTheStiffnessWhileItRuns) {
   SimulatedRun run(config_, true);

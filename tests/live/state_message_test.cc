@@ -50,6 +50,13 @@ TEST_F(StateMessageTest, HasTheLastCycleAndTheExtremesSinceTheMessageBefore) {
   state = message();
   EXPECT_EQ(state["plots"]["force"], json({3.0, 3.0, 3.0})) << "extremes of an earlier message";
   EXPECT_EQ(state["cycles"], 5);
+  EXPECT_EQ(message()["plots"]["force"], json({3.0, 3.0, 3.0})) << "no cycle since the message before";
+  sample_.wrench_R.force = Vector3(0.0, 8.0, 0.0);
+  state_.add(sample_);
+  state_.skip();
+  sample_.wrench_R.force = Vector3(0.0, 5.0, 0.0);
+  state_.add(sample_);
+  EXPECT_EQ(message()["plots"]["force"], json({5.0, 5.0, 5.0})) << "extremes that nobody wanted";
 }
 
 TEST_F(StateMessageTest, HasNullForWhatIsNotFinite) {
@@ -108,9 +115,9 @@ TEST_F(StateMessageTest, HasTheSettings) {
 TEST_F(StateMessageTest, DrawsTheArmToTheMesh) {
   sample_.q = config_.workspace.posture;
   sample_.H_WD.translation = Vector3(0.3, 0.2, 0.1);
-  const std::vector<Vector3> points = arm_points(sample_, placement_);
+  const std::vector<Vector3> points = arm_points(sample_, placement_, scene_.H_MB.translation);
   ASSERT_EQ(points.size(), 8u);
-  EXPECT_LT((points.back() - sample_.H_WD.translation).norm(), 1e-12);
+  EXPECT_LT((points.back() - sample_.H_WD * scene_.H_MB.translation).norm(), 1e-12);
   double length = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
   EXPECT_GT(length, 0.7);

@@ -84,8 +84,19 @@ TEST_F(TelemetryFollowerTest, ReadsEachColumn) {
   EXPECT_EQ(sample.absorbed, 0.01);
 }
 
+/// A page is not empty before there is a telemetry: it shows where the mesh will begin.
+TEST_F(TelemetryFollowerTest, SaysThatItWaits) {
+  std::vector<LiveSample> samples;
+  follower_->take(samples);
+  follower_->take(samples);
+  ASSERT_EQ(samples.size(), 1u);
+  EXPECT_NE(samples[0].mode.find("telemetry.csv"), std::string::npos);
+  EXPECT_EQ(samples[0].H_WD.translation, config_.workspace.start.translation);
+  EXPECT_EQ(samples[0].q, config_.workspace.posture);
+}
+
 TEST_F(TelemetryFollowerTest, WaitsForTheFileAndForTheEndOfALine) {
-  EXPECT_EQ(times(), Times{});
+  EXPECT_EQ(times(), Times{0.0}) << "the sample of a page that waits";
   append(std::string(kHeader).substr(0, 20));
   EXPECT_EQ(times(), Times{});
   append(std::string(kHeader).substr(20));
@@ -108,6 +119,16 @@ TEST_F(TelemetryFollowerTest, FollowsTheNextRun) {
   times();
   append(kHeader + row(0.002));
   EXPECT_EQ(times(), Times{0.002});
+}
+
+/// A new run has written as many bytes as the one before, between two looks.
+TEST_F(TelemetryFollowerTest, FollowsTheNextRunOfTheSameLength) {
+  append(kHeader + row(5.0) + row(5.001));
+  EXPECT_EQ(times().size(), 2u);
+  std::ofstream(file_, std::ios::trunc) << kHeader << row(0.001) << row(0.002);
+  append(row(0.003));
+  times();  // finds that the time has gone back
+  EXPECT_EQ(times(), (Times{0.001, 0.002, 0.003}));
 }
 
 TEST_F(TelemetryFollowerTest, SkipsTheBeginOfALongFile) {

@@ -25,9 +25,11 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-constexpr std::size_t kMostWaiting = 32;  // messages to a viewer that does not take them; a further answer ends it
-constexpr std::size_t kWrite = 16384;     // at once [bytes]
-constexpr unsigned kFoxglove = 1;         // lws_protocols::id; that of the page is 0
+constexpr std::size_t kMostWaiting = 32;   // messages to a viewer that does not take them; a further answer ends it
+constexpr std::size_t kMostDownloads = 8;  // of the page at a time; each has a copy
+constexpr std::size_t kWrite = 16384;      // at once [bytes]
+constexpr unsigned short kMostHeaders = 16384;  // of a request [bytes]
+constexpr unsigned kFoxglove = 1;               // lws_protocols::id; that of the page is 0
 
 /// Compares in a time that does not depend on where the texts differ.
 bool same_text(std::string_view a, std::string_view b) {
@@ -86,13 +88,22 @@ std::size_t size_of(const ServerMessage& message) {
   return message.head.size() + (message.body ? message.body->size() : 0);
 }
 
-/// True if it is a name or an address with a port, so that it may stand in a header.
+/// True for a Host header with a numeric address or this machine's own name, with or without a port. A name of
+/// somebody else could lead a browser here (DNS rebinding), and other characters do not belong in a header.
 bool is_host(std::string_view host) {
-  const auto fits = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view(".-:[]").find(c) != std::string_view::npos;
-  };
-  return !host.empty() && host.size() < 128 && std::all_of(host.begin(), host.end(), fits);
+  constexpr std::string_view kDigits = "0123456789";
+  const std::size_t colon = host.find(':');
+  const std::string_view name = host.substr(0, colon);
+  const bool is_address = !name.empty() && name.find_first_not_of("0123456789.") == std::string_view::npos;
+  const std::string_view port = colon == std::string_view::npos ? "0" : host.substr(colon + 1);
+  const bool is_port = !port.empty() && port.size() <= 5 && port.find_first_not_of(kDigits) == std::string_view::npos;
+  return (is_address || name == "localhost") && host.size() < 64 && is_port;
+}
+
+/// Answers a request with an error and nothing else.
+int refuse(lws* wsi, unsigned status, const char* words) {
+  if (lws_return_http_status(wsi, status, words) != 0) return -1;
+  return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
 }
 
 }  // namespace
@@ -143,9 +154,10 @@ struct LiveServer::Connections {
   /// A page of another origin must not use a token that it has found out; programs that are no browser send no origin.
   bool may_connect(lws* wsi) const {
     const std::string origin = header_text(wsi, WSI_TOKEN_ORIGIN);
-    const bool own = origin.empty() || origin == "http://" + header_text(wsi, WSI_TOKEN_HOST);
+    const std::string host = header_text(wsi, WSI_TOKEN_HOST);
+    const bool own = origin.empty() || origin == "http://" + host;
     const bool known = own || (speaks_foxglove(wsi) && is_of_foxglove(origin));
-    return has_token(wsi) && known && viewers.size() < kMostViewers;
+    return has_token(wsi) && is_host(host) && known && viewers.size() < kMostViewers;
   }
 
   int begin_download(lws* wsi, std::string_view path);
@@ -161,11 +173,11 @@ struct LiveServer::Connections {
 
 int LiveServer::Connections::begin_download(lws* wsi, std::string_view path) {
   const std::string host = header_text(wsi, WSI_TOKEN_HOST);
-  if (path != "/") return lws_return_http_status(wsi, HTTP_STATUS_NOT_FOUND, nullptr);
+  if (path != "/") return refuse(wsi, HTTP_STATUS_NOT_FOUND, nullptr);
   if (!has_token(wsi) || !is_host(host)) {
-    return lws_return_http_status(wsi, HTTP_STATUS_FORBIDDEN,
-                                  "The address needs the token that godobject-live printed.");
+    return refuse(wsi, HTTP_STATUS_FORBIDDEN, "Use the address that godobject-live printed, with its token.");
   }
+  if (downloads.size() >= kMostDownloads) return refuse(wsi, HTTP_STATUS_SERVICE_UNAVAILABLE, nullptr);
   Download download{with_host(setup.page, host)};
   std::array<unsigned char, LWS_PRE + 2048> buffer{};
   unsigned char* const begin = buffer.data() + LWS_PRE;
@@ -288,9 +300,12 @@ void LiveServer::Connections::close_stalled() {
 namespace {
 
 template <class Connections>
-int on_event(lws* wsi, lws_callback_reasons reason, void* /*user*/, void* in, std::size_t length) {
+int handle(lws* wsi, lws_callback_reasons reason, void* in, std::size_t length) {
   const auto text = [&] { return std::string_view(static_cast<const char*>(in), length); };
   switch (reason) {
+    // the library also offers HTTP/2, with which it stops the process on a malformed request
+    case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+      return std::string_view(static_cast<const char*>(in)) == "websocket" ? 0 : 1;
     case LWS_CALLBACK_HTTP: return Connections::of(wsi).begin_download(wsi, text());
     case LWS_CALLBACK_HTTP_WRITEABLE: return Connections::of(wsi).continue_download(wsi);
     case LWS_CALLBACK_CLOSED_HTTP: Connections::of(wsi).downloads.erase(wsi); return 0;
@@ -300,6 +315,16 @@ int on_event(lws* wsi, lws_callback_reasons reason, void* /*user*/, void* in, st
     case LWS_CALLBACK_SERVER_WRITEABLE: return Connections::of(wsi).write_next(wsi);
     case LWS_CALLBACK_CLOSED: Connections::of(wsi).leave(wsi); return 0;
     default: return 0;
+  }
+}
+
+/// The library is written in C and could not pass an exception on: the connection that caused it is closed.
+template <class Connections>
+int on_event(lws* wsi, lws_callback_reasons reason, void* /*user*/, void* in, std::size_t length) {
+  try {
+    return handle<Connections>(wsi, reason, in, length);
+  } catch (...) {
+    return -1;
   }
 }
 
@@ -328,6 +353,8 @@ LiveServer::LiveServer(Setup setup, Protocols protocols)
   lws_set_log_level(0, nullptr);
   lws_context_creation_info info{};
   info.port = connections_->setup.port;
+  info.max_http_header_data = kMostHeaders;  // browsers send cookies of all ports of a host
+  info.pt_serv_buf_size = kMostHeaders;
   info.iface = connections_->setup.address.c_str();
   info.protocols = kProtocols;
   info.user = connections_.get();

@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "firmware/machine/signals.h"
+#include "hal/linux/monotonic_clock.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/command_line/run.h"
 #include "toolchain/files/scene_image.h"
@@ -144,7 +146,7 @@ class Desk {
       : options_(options),
         source_(std::move(shown.source)),
         bodies_(read_bodies(options, source_->scene())),
-        pages_(*source_),
+        pages_(*source_, clock_),
         foxglove_(bodies_.bodies, bodies_.up_axis, shown.page.force, source_->placement()),
         token_(live::make_token()),
         server_({options.listen, options.port, make_page(options, std::move(shown.page), bodies_), token_},
@@ -179,17 +181,26 @@ class Desk {
     samples_.clear();
     source_->take(samples_);
     for (const live::LiveSample& sample : samples_) pages_.add(sample);
-    if (!samples_.empty() && server_.viewers() > 0) publish();
+    const bool watched = server_.viewers() > 0;
+    if (!watched) pages_.skip();
+    // also while no cycles come, so that a page knows that it is connected
+    const bool is_due = clock_.now_ns() - published_ns_ >= kRepeat_ns;
+    if (is_due || (watched && !samples_.empty())) publish();
     return source_->failure().empty() && !firmware::signal_requests().end;
   }
 
   void publish() {
+    published_ns_ = clock_.now_ns();
     pages_.make_state(server_.viewers());
-    foxglove_.show(samples_.back());
+    if (!samples_.empty()) foxglove_.show(samples_.back());
     server_.publish();
   }
 
+  static constexpr std::int64_t kRepeat_ns = 400'000'000;
+
   const Options& options_;
+  hal::MonotonicClock clock_;
+  std::int64_t published_ns_ = 0;
   std::unique_ptr<live::LiveSource> source_;
   const page::PageBodies bodies_;
   live::PageViewers pages_;

@@ -15,12 +15,16 @@ ServerMessages page_answer(bool ok, const std::string& text) {
 
 }  // namespace
 
-PageViewers::PageViewers(LiveSource& source) : source_(source), message_(source.scene(), source.placement()) {}
+PageViewers::PageViewers(LiveSource& source, hal::Clock& clock)
+    : source_(source), clock_(clock), message_(source.scene(), source.placement()) {}
 
 void PageViewers::make_state(std::size_t viewers) {
   text_ = message_.text(source_.settings(), source_.speed(), source_.lost());
   viewers_ = viewers;
+  if (holder_ != 0 && clock_.now_ns() - held_ns_ > kPatience_ns) holder_ = 0;
 }
+
+ServerMessages PageViewers::joined(ViewerNumber viewer) { return text_.empty() ? ServerMessages{} : state(viewer); }
 
 ServerMessages PageViewers::state(ViewerNumber viewer) {
   const char* const hand = holder_ == 0 ? "free" : holder_ == viewer ? "yours" : "other";
@@ -34,13 +38,16 @@ std::optional<ServerMessages> PageViewers::received(ViewerNumber viewer, std::st
   return carry_out(viewer, std::get<Request>(request));
 }
 
-/// The first viewer that moves the hand has it until it releases the hand or leaves.
+/// The first viewer that moves the hand has it until it releases the hand, leaves or falls silent.
 ServerMessages PageViewers::carry_out(ViewerNumber viewer, const Request& request) {
   const bool of_hand = std::holds_alternative<HandRequest>(request);
   if (of_hand && holder_ != 0 && holder_ != viewer) return page_answer(false, "another viewer has the hand");
   const std::string why_not = source_.answer(request);
   if (!why_not.empty()) return page_answer(false, why_not);
-  if (of_hand) holder_ = viewer;
+  if (of_hand) {
+    holder_ = viewer;
+    held_ns_ = clock_.now_ns();
+  }
   if (std::holds_alternative<ReleaseRequest>(request)) left(viewer);
   return of_hand ? ServerMessages{} : page_answer(true, "");
 }

@@ -117,6 +117,7 @@ void SimulatedRun::run(const std::stop_token& stop) {
       }
       session_ = std::make_unique<firmware::Session>(config_, firmware::kSimulatedTransport);
       hand_.reset();
+      wall_mark_ns_ = mark_ns_ = 0;
       begin_again_ = false;
       requests_.end = false;  // before the loop looks whether to stop: the destructor asks to stop and then to end
       const std::lock_guard lock(mutex_);
@@ -144,7 +145,7 @@ void SimulatedRun::after_cycle(const firmware::CycleTimes& times, const CycleRec
   if (wanted && !session.change(*wanted)) take_back(session.rendering());
   if (steered_) move_hand(record, arm);
   const double path_end = config_.simulation.begin + arm.path_seconds() + 0.5;
-  if (!steered_ && 1e-9 * static_cast<double>(arm.now_ns()) > path_end) restart();
+  if (!config_.simulation.path.empty() && 1e-9 * static_cast<double>(arm.now_ns()) > path_end) restart();
   keep_to_real_time(arm.now_ns(), record.mode <= firmware::Mode::kEngaging);
 }
 
@@ -199,7 +200,8 @@ void SimulatedRun::keep_to_real_time(std::int64_t now_ns, bool starts) {
   if (hurries || behind) wall_ahead_ns_ = wall_ns - now_ns;
   clock.sleep_until(now_ns + wall_ahead_ns_);
   if (wall_ns - wall_mark_ns_ > kMeasured_ns) {
-    speed_ = static_cast<double>(now_ns - mark_ns_) / static_cast<double>(wall_ns - wall_mark_ns_);
+    if (wall_mark_ns_ > 0)
+      speed_ = static_cast<double>(now_ns - mark_ns_) / static_cast<double>(wall_ns - wall_mark_ns_);
     wall_mark_ns_ = wall_ns;
     mark_ns_ = now_ns;
   }
@@ -260,6 +262,10 @@ std::string SimulatedRun::change(const ChangeRequest& request) {
   if (!valid_gains(scene.settings)) return "the gains are out of range: stiffness above 0, damping 0 or more";
   if (next.stiffness != now.stiffness || next.damping != now.damping) next.boundary = boundary_of(rendering);
   next.beyond = next.stiffness > next.boundary;
+  if (next.beyond && !request.beyond && next.boundary < 0.01 * next.stiffness) {
+    return fmt::format("hardly any stiffness is stable on this arm with a damping of {:.3g} Ns/m; lower the damping",
+                       next.damping);
+  }
   if (next.beyond && !request.beyond) {
     return fmt::format(
         "{:.4g} N/m with {:.3g} Ns/m is beyond the stability boundary of this arm: at most {:.4g} N/m, which includes "

@@ -46,7 +46,7 @@ class SimulatedRun final : public LiveSource, private firmware::Companion {
   void keep_to_real_time(std::int64_t now_ns, bool starts);
   void restart();
   std::string change(const ChangeRequest& request);
-  /// Largest stiffness that the gain check allows [N/m]. Cost: 0.3 s.
+  /// Largest stiffness that the gain check allows [N/m]. Cost: some 50 ms, in which no state is sent.
   double boundary_of(const firmware::Rendering& rendering) const;
 
   const firmware::ControllerConfig config_;

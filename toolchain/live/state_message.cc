@@ -75,18 +75,20 @@ Wrench wrench_in_scene(const LiveSample& sample, const firmware::Placement* plac
   return {R_WR._transformVector(sample.wrench_R.force), R_WR._transformVector(sample.wrench_R.torque)};
 }
 
-std::vector<Vector3> arm_points(const LiveSample& sample, const firmware::Placement& placement) {
+std::vector<Vector3> arm_points(const LiveSample& sample, const firmware::Placement& placement, const Vector3& p_MB) {
   const ArmKinematics arm = forward_kinematics(placement.device.model, sample.q);
-  // relative to the tool, because the clutch may have moved the room in the scene
+  const double scale = placement.mapping.scale;
+  const Vector3 p_RG = arm.H_RM * Vector3(p_MB / scale);
+  const Vector3 p_WG = sample.H_WD * p_MB;
+  // relative to the grip, because the clutch may have moved the room in the scene, and turned the mesh about the grip
   const auto in_scene = [&](const Vector3& p_R) -> Vector3 {
-    const Vector3 p_MP_R = p_R - arm.H_RM.translation;
-    return sample.H_WD.translation + placement.mapping.scale * placement.mapping.H_WR.rotation._transformVector(p_MP_R);
+    return p_WG + scale * placement.mapping.H_WR.rotation._transformVector(p_R - p_RG);
   };
   std::vector<Vector3> points;
   for (int i = 0; i < arm.joint_count; ++i) {
     points.push_back(in_scene(arm.H_RL[static_cast<std::size_t>(i)].translation));
   }
-  points.push_back(in_scene(arm.H_RM.translation));
+  points.push_back(p_WG);
   return points;
 }
 
@@ -135,11 +137,13 @@ std::string StateMessage::text(const std::optional<LiveSettings>& settings, doub
                {"cycles", cycles_},
                {"lost", lost}};
   if (placement_ != nullptr) {
-    for (const Vector3& point : arm_points(sample, *placement_)) message["arm"].push_back(array_of(point, 1e5));
+    for (const Vector3& point : arm_points(sample, *placement_, scene_.H_MB.translation))
+      message["arm"].push_back(array_of(point, 1e5));
   }
   for (std::size_t i = 0; i < kPlots; ++i) {
-    message["plots"][kPlotNames[i]] = {rounded(plots_[i].last, 1e9), rounded(plots_[i].low, 1e9),
-                                       rounded(plots_[i].high, 1e9)};
+    Range& range = plots_[i];
+    if (fresh_) range.low = range.high = range.last;
+    message["plots"][kPlotNames[i]] = {rounded(range.last, 1e9), rounded(range.low, 1e9), rounded(range.high, 1e9)};
   }
   fresh_ = true;
   std::string text = message.dump(-1, ' ', true, json::error_handler_t::replace);

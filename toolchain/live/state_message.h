@@ -34,6 +34,8 @@ class StateMessage {
   StateMessage(const SceneView& scene, const firmware::Placement* placement);
 
   void add(const LiveSample& sample);
+  /// Begins the extremes of the next message again.
+  void skip() { fresh_ = true; }
 
   /// The message as JSON without its closing brace, to which each viewer's own keys are added (README.md). Empty before
   /// the first sample. Finds the contact points; what is not finite becomes null.
@@ -56,7 +58,8 @@ class StateMessage {
 /// Returns the wrench on the hand about the moving body's centre of mass, along the axes of W [N, Nm].
 Wrench wrench_in_scene(const LiveSample& sample, const firmware::Placement* placement);
 
-/// Returns the places of the arm's joints and of its tool in the scene, from the base on [m].
-std::vector<Vector3> arm_points(const LiveSample& sample, const firmware::Placement& placement);
+/// Returns the places of the arm's joints and of the grip, the body's centre of mass `p_MB` in the mesh [m], in the
+/// scene, from the base on [m].
+std::vector<Vector3> arm_points(const LiveSample& sample, const firmware::Placement& placement, const Vector3& p_MB);
 
 }  // namespace godobject::live

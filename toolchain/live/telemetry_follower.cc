@@ -22,13 +22,24 @@ TelemetryFollower::TelemetryFollower(const firmware::ControllerConfig& config)
     : file_(config.telemetry.folder / "telemetry.csv"),
       image_(config.scene.image),
       scene_(firmware::configured(image_.scene(), config)),
-      placement_(firmware::place(config.workspace, config.device, scene_.H_MB.translation)) {}
+      placement_(firmware::place(config.workspace, config.device, scene_.H_MB.translation)),
+      start_(config.workspace.start),
+      posture_(config.workspace.posture) {}
 
-/// True if the path is another file than before, or a shorter one.
+/// The sample that a page shows before there is a telemetry.
+LiveSample TelemetryFollower::waiting() const {
+  LiveSample sample;
+  sample.mode = fmt::format("waits for {}", file_.string());
+  sample.H_WD = sample.H_WS = start_;
+  sample.q = posture_;
+  return sample;
+}
+
+/// True if the path is another file than before, a shorter one, or one whose rows do not continue those before.
 bool TelemetryFollower::is_another_file() const {
   struct stat status {};
   if (::stat(file_.c_str(), &status) != 0) return false;
-  return status.st_ino != inode_ || static_cast<std::size_t>(status.st_size) < read_;
+  return begins_again_ || status.st_ino != inode_ || static_cast<std::size_t>(status.st_size) < read_;
 }
 
 /// Opens the file and reads its header. Without effect before the header is complete. Of a long file only the last
@@ -36,6 +47,7 @@ bool TelemetryFollower::is_another_file() const {
 void TelemetryFollower::open() {
   stream_.close();
   inode_ = 0;  // no file has this number
+  begins_again_ = false;
   struct stat status {};
   std::string header;
   std::ifstream stream(file_, std::ios::binary);
@@ -48,6 +60,7 @@ void TelemetryFollower::open() {
   inode_ = status.st_ino;
   read_ = header.size() + 1;
   rest_.clear();
+  last_t_ = -1.0;
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > read_ + kBacklog) {
     stream.seekg(static_cast<std::streamoff>(size - kBacklog));
@@ -59,7 +72,11 @@ void TelemetryFollower::open() {
 
 void TelemetryFollower::take(std::vector<LiveSample>& samples) {
   if (is_another_file()) open();
-  if (!stream_.is_open()) return;
+  if (!stream_.is_open()) {
+    if (!waits_) samples.push_back(waiting());
+    waits_ = true;
+    return;
+  }
   std::vector<char> piece(kRead);
   const std::size_t before = samples.size();
   for (;;) {
@@ -81,7 +98,10 @@ void TelemetryFollower::take(std::vector<LiveSample>& samples) {
 
 void TelemetryFollower::read_line(std::string_view line, std::vector<LiveSample>& samples) {
   try {
-    samples.push_back(sample_of(columns_->row(line)));
+    LiveSample sample = sample_of(columns_->row(line));
+    begins_again_ = begins_again_ || sample.t < last_t_;  // a new run has overwritten the file
+    last_t_ = sample.t;
+    samples.push_back(std::move(sample));
   } catch (const figures::MalformedTelemetry&) {
     ++skipped_;
   }

@@ -33,6 +33,7 @@ class TelemetryFollower final : public LiveSource {
   std::string answer(const Request& request) override;
 
  private:
+  LiveSample waiting() const;
   bool is_another_file() const;
   void open();
   void read_line(std::string_view line, std::vector<LiveSample>& samples);
@@ -42,7 +43,12 @@ class TelemetryFollower final : public LiveSource {
   const firmware::SceneFile image_;
   const SceneView scene_;
   const firmware::Placement placement_;
+  const Pose start_;           ///< H_WM before there is a telemetry
+  const JointVector posture_;  ///< the same of the joints [rad]
   std::ifstream stream_;
+  bool waits_ = false;         ///< the page has been told
+  bool begins_again_ = false;  ///< the time has gone back
+  double last_t_ = -1.0;       ///< of the row before [s]
   std::uint64_t inode_ = 0;
   std::size_t read_ = 0;  ///< bytes
   std::string rest_;      ///< of a line that is not complete yet
