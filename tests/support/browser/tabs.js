@@ -29,6 +29,7 @@ async function openTab(browser, address, isAllowed, { viewport = wide, scheme = 
 function pixels(tab, from = 0, to = 1) {
   return tab.evaluate((begin, end) => {
     const { picture } = window.godobjectPage;
+    picture.setSharpness(1); // a slow machine draws fewer pixels
     picture.invalidate();
     picture.draw();
     const { width, height } = picture.canvas;
