@@ -135,6 +135,36 @@ const tests = {
     return tab;
   },
 
+  async 'draws a gap for a number that is not known'(browser) {
+    const tab = await open(browser);
+    const [low, high] = await tab.evaluate(() => {
+      const { latest: { t, plots: known }, plots } = window.godobjectPage;
+      const take = (time, energy) => plots.take({ t: time, plots: { ...known, energy: [energy, energy, energy] } });
+      const { quantity } = plots.figures.find((figure) => figure.quantity.key === 'energy');
+      plots.history.clear();
+      for (const [after, energy] of [[1, null], [1.02, 3], [1.04, null], [1.041, 5], [1.042, null]]) take(t + after, energy);
+      const [, ...rows] = plots.table(quantity);
+      plots.history.clear();
+      return rows;
+    });
+    assert.deepEqual(low, [null, 3000, null, 5000]);
+    assert.deepEqual(high, low);
+    return tab;
+  },
+
+  async 'begins the plots again when the time goes back'(browser) {
+    const tab = await open(browser);
+    const times = await tab.evaluate(() => {
+      const { latest: { t, plots: known }, plots } = window.godobjectPage;
+      for (const time of [t + 1, t + 1.02, 0.001, 0.002, 0.03]) plots.take({ t: time, plots: known });
+      const [shown] = plots.table(plots.figures[0].quantity);
+      plots.history.clear();
+      return Array.from(shown, (time) => Math.round(1e3 * time));
+    });
+    assert.deepEqual(times, [-29, -28, 0]);
+    return tab;
+  },
+
   async 'a drag on the body moves the hand into contact'(browser) {
     const tab = await open(browser);
     await until(tab, () => !document.querySelector('.notice.hint').hidden);

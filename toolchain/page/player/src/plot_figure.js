@@ -23,9 +23,10 @@ function scaleOf({ key, logarithmic, range }) {
   return { range: range ?? (key === 'depth' ? depthRange : plainRange) };
 }
 
-/** Returns numbers in the unit of a quantity; on a logarithmic axis without zero. */
+/** Returns numbers in the unit of a quantity; on a logarithmic axis without zero. Unknown ones (null) stay a gap. */
 export function inUnit({ scale, logarithmic }, numbers) {
-  return Float64Array.from(numbers, (v) => (logarithmic ? Math.max(v * scale, 0.1) : v * scale));
+  const scaled = (v) => (logarithmic ? Math.max(v * scale, 0.1) : v * scale);
+  return Array.from(numbers, (v) => (v === null ? null : scaled(v)));
 }
 
 function tickText(v) {
