@@ -3,6 +3,9 @@
 // counts the pictures of a second, which only an idle machine draws fast enough.
 const assert = require('node:assert/strict');
 const {
+  assertDistances, assertLegend, coloursOfNearest, placesOf,
+} = require('../../support/browser/distances.js');
+const {
   assertFitsPhone, openTab, phone, pixels, runTests, softwarePictures,
 } = require('../../support/browser/tabs.js');
 
@@ -328,7 +331,9 @@ const tests = {
 
   async 'fits a phone, where a finger moves the body'(browser) {
     const tab = await open(browser, { viewport: phone });
+    await tab.keyboard.press('m');
     await assertFitsPhone(tab);
+    await assertLegend(tab);
     const [[x, y]] = await centres(tab);
     await tab.touchscreen.touchStart(x, y);
     await tab.touchscreen.touchMove(x + 12, y - 8);
@@ -348,6 +353,23 @@ const tests = {
     return dark;
   },
 
+  async 'colours the god object by distance on request'(browser) {
+    const tab = await open(browser);
+    await tab.keyboard.press('m');
+    await assertLegend(tab);
+    await until(tab, () => window.godobjectPage.picture.colours.motions[0].pass >= 2);
+    await assertDistances(tab, 6, 0.05);
+    assert.ok(await pressUntilContact(tab, await grab(tab)), 'no force');
+    await until(tab, () => window.godobjectPage.picture.colours.motions[0].pass >= 2);
+    const near = await coloursOfNearest(tab);
+    await tab.mouse.up();
+    assert.ok(near.some(([red, green, blue]) => Math.min(red, green) > 120 && blue < 110), JSON.stringify(near));
+    await tab.click('.options label:has(+ .legend)');
+    assert.deepEqual((await placesOf(tab)).legend, [0, 0]);
+    const { blue } = await pixels(tab);
+    assert.ok(blue > 2000, `${blue}`);
+    return tab;
+  },
 };
 
 const speed = {

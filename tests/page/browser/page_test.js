@@ -2,6 +2,9 @@
 // Opens FOLDER/{one,two,long}.html from the disk and uses them as a viewer would.
 const assert = require('node:assert/strict');
 const path = require('node:path');
+const {
+  assertDistances, assertLegend, coloursOfNearest, finishDistances, placesOf,
+} = require('../../support/browser/distances.js');
 const { assertFitsPhone, openTab, phone, pixels, runTests, softwareGl } = require('../../support/browser/tabs.js');
 
 const [, , chromium, folder] = process.argv;
@@ -124,6 +127,75 @@ const tests = {
     return tab;
   },
 
+  async 'colours the god object by distance on request'(browser) {
+    const tab = await open(browser, 'one.html', { hash: '#paused&t=0.9' });
+    const before = await pixels(tab);
+    assert.equal(await tab.evaluate(() => window.godobjectPage.picture.colours.motions), undefined);
+    assert.deepEqual((await placesOf(tab)).legend, [0, 0]);
+    await tab.keyboard.press('m');
+    await finishDistances(tab);
+    const coloured = await pixels(tab);
+    assert.ok(coloured.green > before.green + 100, `${before.green} ${coloured.green}`);
+    const near = await coloursOfNearest(tab);
+    assert.ok(near.some(([red, green, blue]) => red > 150 && green > 150 && blue < 110), JSON.stringify(near));
+    await assertLegend(tab);
+    assert.match(await tab.$eval('.legend', (e) => e.textContent), /^inside0.*mm$/);
+    await tab.keyboard.press('m');
+    assert.deepEqual((await placesOf(tab)).legend, [0, 0]);
+    const { blue: restored, green: arcs } = await pixels(tab);
+    assert.ok(Math.abs(restored - before.blue) < 0.02 * before.blue && Math.abs(arcs - before.green) < 30);
+    return tab;
+  },
+
+  async 'measures distances as all triangles tell them, also after a motion'(browser) {
+    const tab = await open(browser, 'two.html', { hash: '#paused&t=0.3&distance' });
+    for (const share of [0.3, 0.9, 0.55, 0.551]) {
+      await tab.evaluate((time) => window.godobjectPage.clock.seekTime(time), share);
+      await finishDistances(tab);
+      await assertDistances(tab, 25, 1e-6);
+    }
+    return tab;
+  },
+
+  async 'marks places inside the still body'(browser) {
+    const tab = await open(browser, 'two.html', { hash: '#paused&t=0.9&cut=y' });
+    const before = await pixels(tab, 0.5, 1);
+    await tab.keyboard.press('m');
+    await finishDistances(tab);
+    const after = await pixels(tab, 0.5, 1);
+    assert.ok(after.red > before.red + 200, `${before.red} ${after.red}`);
+    return tab;
+  },
+
+  async 'cuts large triangles for their colours, without gaps'(browser) {
+    const tab = await open(browser, 'one.html', { hash: '#paused&t=0.9&distance' });
+    const { longest, triangles, areas, borders } = await tab.evaluate(() => {
+      const { picture } = window.godobjectPage;
+      const [{ surface, coloured }] = picture.motions;
+      const V = picture.target.constructor;
+      const cornersOf = ({ index, attributes: { position } }) => Array.from(index ? index.array : position.array.keys())
+        .slice(0, index ? index.count : position.count).map((i) => new V().fromBufferAttribute(position, i));
+      const area = (all) => all.reduce((sum, a, i) => (i % 3 ? sum : sum +
+        all[i + 1].clone().sub(a).cross(all[i + 2].clone().sub(a)).length() / 2), 0);
+      const fine = cornersOf(coloured.geometry);
+      const { vertex } = coloured.geometry.attributes;
+      const sides = new Map();
+      coloured.geometry.index.array.forEach((corner, i, all) => {
+        const pair = [corner, all[i % 3 === 2 ? i - 2 : i + 1]].map((c) => vertex.array[c]).sort((a, b) => a - b).join();
+        sides.set(pair, (sides.get(pair) ?? 0) + 1);
+      });
+      return {
+        longest: Math.max(...fine.map((a, i) => a.distanceTo(fine[i % 3 === 2 ? i - 2 : i + 1]))) / picture.size,
+        triangles: fine.length / 3, areas: [area(cornersOf(surface.geometry)), area(fine)],
+        borders: [...sides.values()].filter((count) => count !== 2).length,
+      };
+    });
+    assert.ok(longest <= 1.001 / 48 && triangles < 60_000, `${longest} ${triangles}`);
+    assert.ok(Math.abs(areas[0] - areas[1]) < 1e-5 * areas[0], `${areas}`);
+    assert.equal(borders, 0);
+    return tab;
+  },
+
   async 'follows the god object, and resets the view'(browser) {
     const tab = await open(browser, 'one.html', { hash: '#paused&t=0' });
     const camera = () => tab.evaluate(() => window.godobjectPage.picture.camera.position.toArray());
@@ -152,8 +224,9 @@ const tests = {
 
   async 'fits a phone'(browser) {
     for (const name of ['one.html', 'two.html']) {
-      const tab = await open(browser, name, { viewport: phone, hash: '#paused&t=0.9&cut=y' });
+      const tab = await open(browser, name, { viewport: phone, hash: '#paused&t=0.9&cut=y&distance' });
       await assertFitsPhone(tab);
+      await assertLegend(tab);
       assert.deepEqual(tab.complaints, []);
       await tab.close();
     }

@@ -36,7 +36,7 @@ function pixels(tab, from = 0, to = 1) {
     const copy = new OffscreenCanvas(width, height).getContext('2d');
     copy.drawImage(picture.canvas, 0, 0);
     const { data } = copy.getImageData(0, 0, width, height);
-    const counts = { blue: 0, violet: 0, grey: 0, red: 0, cap: 0, drawn: 0, row: 0 };
+    const counts = { blue: 0, violet: 0, grey: 0, red: 0, green: 0, cap: 0, drawn: 0, row: 0 };
     for (let y = 0; y < height; ++y) {
       for (let x = Math.floor(begin * width); x < end * width; ++x) {
         const [r, g, b, a] = data.subarray(4 * (y * width + x), 4 * (y * width + x) + 4);
@@ -46,6 +46,7 @@ function pixels(tab, from = 0, to = 1) {
         if (b > g + 60 && r > g + 30) counts.violet += 1;
         if (r > g && g > b && r - b < 40 && r > 90) counts.grey += 1;
         if (r > 200 && g < 60) counts.red += 1;
+        if (g > r + 40 && g > b + 30) counts.green += 1;
         if (r > g + 25 && g > b + 15 && r > 150) counts.cap += 1;
       }
     }

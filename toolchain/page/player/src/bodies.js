@@ -114,6 +114,7 @@ export class MovingBodies extends Group {
     Object.assign(this.surface.material, {
       stencilWrite: true, stencilRef: godObjectMark, stencilZPass: ReplaceStencilOp,
     });
+    this.surfaces = [this.surface];
     this.edges = lines(geometries.edges, new Color(colour).multiplyScalar(0.35), 0.6, order.godObject + 0.2);
     this.godObject.add(this.surface, this.edges);
     if (body.closed) {
@@ -126,6 +127,22 @@ export class MovingBodies extends Group {
     this.force = new ForceArrow(0xe11d48, scale.length, scale.force);
     this.torque = new TorqueArrow(0x16a34a, scale.radius, scale.torque);
     this.add(this.godObject, this.ghost, this.force, this.torque);
+  }
+
+  /** Adds a surface of the god object with other colours, which `prepare(material)` gives it. */
+  addColoured(geometry, prepare) {
+    this.coloured = meshOf(geometry, { material: this.surface.material.clone(), renderOrder: order.godObject });
+    prepare(this.coloured.material);
+    this.surfaces.push(this.coloured);
+    this.godObject.add(this.coloured);
+    this.refresh();
+  }
+
+  /** Shows the coloured surface or the plain one. The ghost does not tint the coloured one. */
+  showColoured(on) {
+    this.surface.visible = !on;
+    this.ghost.lit[1].visible = !on;
+    if (this.coloured) this.coloured.visible = on;
   }
 
   /** Returns the centre of mass of the god object in W [m]. */
@@ -145,12 +162,12 @@ export class MovingBodies extends Group {
 
   /** Makes the bodies lighter, to show that the pointer can take them. */
   highlight(on) {
-    for (const { emissive } of [this.surface.material, ...this.ghost.lit]) emissive.setScalar(on ? 0.09 : 0);
+    for (const { emissive } of [...this.surfaces.map(({ material }) => material), ...this.ghost.lit]) emissive.setScalar(on ? 0.09 : 0);
   }
 
   refresh() {
     const planes = this.cut.planesFor(true);
-    for (const object of [this.surface, this.edges]) object.material.clippingPlanes = planes;
+    for (const object of [...this.surfaces, this.edges]) object.material.clippingPlanes = planes;
     for (const part of this.ghost.children) part.material.clippingPlanes = planes;
     this.ghost.children[0].visible = !this.cut.on; // the cut shows what the still body hides
     if (this.closing) this.closing.counted.visible = this.closing.cap.visible = planes.length > 0;

@@ -3,7 +3,7 @@ import { BufferAttribute, BufferGeometry } from 'three';
 const crease = Math.cos(0.6); // of the angle between triangles: below it a surface is drawn round
 
 /** Returns the vertices of a body as x, y, z, x, ... in its own frame [m]. */
-function positionsOf(body) {
+export function positionsOf(body) {
   const count = body.vertices[0].length;
   const positions = new Float32Array(3 * count);
   for (let axis = 0; axis < 3; ++axis) {
@@ -13,7 +13,7 @@ function positionsOf(body) {
 }
 
 /** Returns the normals of the triangles, times twice their area. */
-function faceVectors(positions, corners) {
+export function faceVectors(positions, corners) {
   const vectors = new Float64Array(corners.length);
   for (let f = 0; f < corners.length; f += 3) {
     const [a, b, c] = [3 * corners[f], 3 * corners[f + 1], 3 * corners[f + 2]];
@@ -35,7 +35,7 @@ function isRound(vectors, f, g) {
 }
 
 /** Returns, for each vertex, the first index of each of its triangles. */
-function trianglesOfVertices(count, corners) {
+export function trianglesOfVertices(count, corners) {
   const triangles = Array.from({ length: count }, () => []);
   corners.forEach((vertex, i) => triangles[vertex].push(i - (i % 3)));
   return triangles;

@@ -5,6 +5,7 @@ export function viewKeys({ options, theme, picture }) {
     d: () => theme.toggle(),
     r: () => picture?.resetView(),
     c: () => picture && options.toggleCut(),
+    m: () => picture && options.showDistance(!picture.colours.on),
   };
 }
 

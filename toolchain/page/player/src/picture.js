@@ -3,6 +3,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { MovingBodies, StillBody } from './bodies.js';
 import { bodyGeometries } from './body_geometry.js';
 import { Cut } from './cut.js';
+import { DistanceColours } from './distance/distance_colours.js';
 import { Stage } from './stage.js';
 import { motionColours } from './theme.js';
 
@@ -34,6 +35,7 @@ export class Picture {
     this.stage = new Stage(data, shownSize, lowest);
     this.size = Math.min(diagonal(data.moving), shownSize);
     this.makeBodies(count, largest, 4 * (diagonal(data.still) + shownSize));
+    this.colours = new DistanceColours(this);
     this.camera = new PerspectiveCamera(35, 1, 0.01 * this.distance, 50 * this.distance + 4 * diagonal(data.still));
     this.columns = 1;
     this.resetView();
@@ -161,7 +163,7 @@ export class Picture {
 
   /** Draws if anything changed. */
   draw() {
-    if (!this.stale) return;
+    if (!this.colours.advance() && !this.stale) return;
     this.stale = false;
     const { camera, renderer, stage } = this;
     if (this.cut.on) {

@@ -5,7 +5,7 @@ import {
 const steps = [1, 2, 5];
 
 /** Returns 1, 2 or 5 times a power of ten, near to and not above a length. */
-function roundLength(length) {
+export function roundLength(length) {
   const power = 10 ** Math.floor(Math.log10(length));
   return power * steps.filter((step) => step * power <= length * 1.0001).at(-1);
 }

@@ -1,3 +1,4 @@
+import { distanceLegend } from './distance/legend.js';
 import { element, fixed } from './elements.js';
 import { iconButton } from './transport.js';
 
@@ -19,6 +20,7 @@ function choice(title, options, selected, act) {
 export class ViewOptions {
   constructor(picture, theme, frame) {
     this.picture = picture;
+    this.frame = frame;
     this.root = element('div', { className: 'options' });
     if (picture) this.addPictureOptions();
     this.boxes = element('span', { className: 'boxes' });
@@ -29,7 +31,6 @@ export class ViewOptions {
     if (document.fullscreenEnabled) right.append(iconButton('full', 'Full screen (f)', () => this.toggleFull()));
     right.append(iconButton('theme', 'Light or dark (d)', () => theme.toggle()));
     this.root.append(right);
-    this.frame = frame;
   }
 
   addPictureOptions() {
@@ -46,9 +47,14 @@ export class ViewOptions {
     this.place = element('output', { className: 'place' });
     this.details = element('span', { className: 'details own-keys' },
       this.axisChoice, this.slider, this.place, this.both.label);
+    this.distance = checkbox('Distance', 'Colour the god object by its distance to the still body (m)',
+      (on) => this.showDistance(on));
+    this.legend = distanceLegend(picture.colours, picture.data.still.name);
+    this.frame.style.setProperty('--scale', picture.colours.scale.gradient());
+    this.legend.hidden = true;
     const names = axes.map((axis) => `${axis} up`);
     const up = choice('Axis that points up', names, picture.up, (axis) => picture.setUp(axis));
-    this.root.append(this.follow.label, this.cut.label, this.details, up);
+    this.root.append(this.follow.label, this.cut.label, this.details, this.distance.label, this.legend, up);
     this.setAxis(this.axis);
   }
 
@@ -93,6 +99,13 @@ export class ViewOptions {
     this.picture.setCut({
       on: this.cut.input.checked, both: this.both.input.checked, axis: this.axis, position,
     });
+  }
+
+  showDistance(on) {
+    this.distance.input.checked = on;
+    this.legend.hidden = !on;
+    this.frame.classList.toggle('by-distance', on);
+    this.picture.colours.setOn(on);
   }
 
   toggleFull() {

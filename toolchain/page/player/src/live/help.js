@@ -2,7 +2,8 @@ import { element } from '../elements.js';
 
 const view = [
   ['Drag', 'turn the camera; right button: pan; wheel: zoom'],
-  ['c  r  f  d', 'cut, reset the view, full screen, dark or light'],
+  ['c  m', 'cut, colour by distance'],
+  ['r  f  d', 'reset the view, full screen, dark or light'],
   ['a  h', 'arm, this help'],
 ];
 const hand = [
