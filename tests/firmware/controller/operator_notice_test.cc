@@ -27,9 +27,9 @@ class OperatorNoticeTest : public testing::Test {
   OperatorNotice notice_{report_, 1e-3};
 };
 
-const std::string kIdle = "godobject-controller: waits for the enable switch: release it, then hold it\n";
+const std::string kIdle = "firmware_session_test: waits for the enable switch: release it, then hold it\n";
 const std::string kArmed =
-    "godobject-controller: waits with the arm held: the moving body touches or penetrates the still body, or the "
+    "firmware_session_test: waits with the arm held: the moving body touches or penetrates the still body, or the "
     "budget of work does not suffice to find out; move the tool away\n";
 
 TEST_F(OperatorNoticeTest, SaysOnceThatItWaitsForLongerThanThreeSeconds) {
@@ -70,7 +70,7 @@ TEST_F(OperatorNoticeTest, SaysOnceThatTheGodObjectStaysBehind) {
     return told(Mode::kRunning, 0);
   };
   const std::string line =
-      "godobject-controller: the god object stays behind, so that the hand is held: each cycle spends its budget of "
+      "firmware_session_test: the god object stays behind, so that the hand is held: each cycle spends its budget of "
       "work; move back, end the run, and raise loop.compute, and loop.cycle_budget if it is set, or compile the scene "
       "with fewer points or with point_budget\n";
   EXPECT_EQ(told_at(300), "");
@@ -83,7 +83,7 @@ TEST_F(OperatorNoticeTest, SaysOnceThatTheGodObjectStaysBehind) {
 
 TEST_F(OperatorNoticeTest, SaysOnceWhyItHasStoppedAndHowToGoOn) {
   const auto line = [](const std::string& why) {
-    return "godobject-controller: stopped: " + why +
+    return "firmware_session_test: stopped: " + why +
            "; to go on, release enable switch and emergency stop, then kill -USR1 " + std::to_string(::getpid()) + "\n";
   };
   EXPECT_EQ(told(Mode::kStopping, 0, Fault::kTooFast), "") << "the arm still moves";
