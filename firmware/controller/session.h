@@ -52,7 +52,6 @@ class Session {
   bool change(const Rendering& rendering) noexcept;
 
   Rendering rendering() const noexcept;
-  const SceneView& scene() const noexcept { return scene_; }
   const Placement& placement() const noexcept { return placement_; }
   double delay() const noexcept { return delay_; }  ///< from the sample of a position to the torque [s]
 

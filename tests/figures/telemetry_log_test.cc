@@ -1,5 +1,6 @@
 #include "toolchain/figures/telemetry_log.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -97,6 +98,19 @@ TEST_F(TelemetryLogFile, NamesWhatIsWrong) {
   expect_refused(text + kBoot, ":1: has no column share");
   text = "t_s,mode,fault,share,outcome,contacts,depth_m\n";
   expect_refused(text + "0,boot,0,0,free,0,0\n", ":1: has no column");
+}
+
+/// A telemetry without joints, times and energy is read; what it lacks is empty or no number, not zero.
+TEST_F(TelemetryLogFile, NeedsNoColumnsOfJointsTimesAndEnergy) {
+  std::string text = kHeader;
+  for (const char* name : {"late_us", "compute_us", "q1_rad", "q2_rad", "qd1_rad_s", "qd2_rad_s", "absorbed_J"}) {
+    text.replace(text.find(name), 1, "x");
+  }
+  const TelemetryRow row = read_telemetry_log(holding(text + kBoot)).front();
+  EXPECT_TRUE(row.position.empty());
+  EXPECT_TRUE(row.velocity.empty());
+  EXPECT_EQ(row.torque.size(), 2u);
+  for (const double missing : {row.late, row.compute, row.absorbed}) EXPECT_TRUE(std::isnan(missing));
 }
 
 TEST_F(TelemetryLogFile, HasTheWorkOfTheHandBesideIt) {

@@ -28,7 +28,7 @@ TEST_F(IsSameScene, RefusesOtherSizes) {
   EXPECT_FALSE(is_same(Vector3(0.05, 0.05, 0.01), 0.015)) << "a smaller moving body";
 }
 
-/// Where points are left out, the rest may reach less far than the mesh, but never farther.
+/// A workspace leaves out sample points. The others may then reach less far than the mesh does, but not farther.
 TEST_F(IsSameScene, AllowsThatPointsAreLeftOut) {
   scene_.workspace.limited = true;
   EXPECT_TRUE(is_same(Vector3(0.05, 0.05, 0.01), 0.025));

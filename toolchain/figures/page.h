@@ -22,8 +22,8 @@ struct PageContent {
   std::vector<ArmFigure> arm_figures;
   std::vector<ArmRun> runs;
   std::vector<std::string> run_verdicts;
-  std::filesystem::path logs =
-      {};  ///< folder of the replays and the logs of runs, which the page links; empty: the page's
+  /// Folder of the replays and of the logs of runs, to which the page links; empty: the folder of the page.
+  std::filesystem::path logs = {};
 };
 
 /// Returns the static HTML page for `folder`. It begins with a moving picture of the first scene, if its folder has one

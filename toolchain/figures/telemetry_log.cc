@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -28,10 +29,10 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 
 Pose pose_of(const double* v) { return {Quaternion(v[3], v[4], v[5], v[6]), Vector3(v[0], v[1], v[2])}; }
 
-constexpr std::array<std::string_view, 28> kNumbers = {
-    "t_s",   "fault", "share", "contacts", "depth_m", "fx_N",    "fy_N",       "fz_N",      "tx_Nm", "ty_Nm",
-    "tz_Nm", "dpx_m", "dpy_m", "dpz_m",    "dqw",     "dqx",     "dqy",        "dqz",       "gpx_m", "gpy_m",
-    "gpz_m", "gqw",   "gqx",   "gqy",      "gqz",     "late_us", "compute_us", "absorbed_J"};
+constexpr std::array<std::string_view, 25> kNumbers = {
+    "t_s",   "fault", "share", "contacts", "depth_m", "fx_N", "fy_N", "fz_N", "tx_Nm",
+    "ty_Nm", "tz_Nm", "dpx_m", "dpy_m",    "dpz_m",   "dqw",  "dqx",  "dqy",  "dqz",
+    "gpx_m", "gpy_m", "gpz_m", "gqw",      "gqx",     "gqy",  "gqz"};
 
 }  // namespace
 
@@ -43,10 +44,13 @@ TelemetryColumns::TelemetryColumns(std::string_view header) {
   mode_ = place("mode");
   outcome_ = place("outcome");
   for (std::size_t joint = 1; joint == 1 || has(fmt::format("torque{}_Nm", joint)); ++joint) {
-    positions_.push_back(place(fmt::format("q{}_rad", joint)));
-    velocities_.push_back(place(fmt::format("qd{}_rad_s", joint)));
     torques_.push_back(place(fmt::format("torque{}_Nm", joint)));
+    add_if_there(fmt::format("q{}_rad", joint), positions_);
+    add_if_there(fmt::format("qd{}_rad_s", joint), velocities_);
   }
+  add_if_there("late_us", late_);
+  add_if_there("compute_us", compute_);
+  add_if_there("absorbed_J", absorbed_);
 }
 
 TelemetryRow TelemetryColumns::row(std::string_view line) const {
@@ -79,9 +83,12 @@ TelemetryRow TelemetryColumns::row(std::string_view line) const {
   row.cycle.H_WS = pose_of(&v[18]);
   row.cycle.status = fields[outcome_];
   row.mode = fields[mode_];
-  row.late = 1e-6 * v[25];
-  row.compute = 1e-6 * v[26];
-  row.absorbed = v[27];
+  const auto one = [&](const std::vector<std::size_t>& place) {
+    return place.empty() ? std::numeric_limits<double>::quiet_NaN() : number(place.front());
+  };
+  row.late = 1e-6 * one(late_);
+  row.compute = 1e-6 * one(compute_);
+  row.absorbed = one(absorbed_);
   row.position = numbers(positions_);
   row.velocity = numbers(velocities_);
   row.torque = numbers(torques_);
@@ -90,6 +97,10 @@ TelemetryRow TelemetryColumns::row(std::string_view line) const {
 
 bool TelemetryColumns::has(std::string_view name) const {
   return std::find(names_.begin(), names_.end(), name) != names_.end();
+}
+
+void TelemetryColumns::add_if_there(std::string_view name, std::vector<std::size_t>& places) const {
+  if (has(name)) places.push_back(place(name));
 }
 
 std::size_t TelemetryColumns::place(std::string_view name) const {

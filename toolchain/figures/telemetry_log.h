@@ -19,10 +19,10 @@ struct TelemetryRow {
   std::string mode;              ///< of the supervisor
   int fault = 0;                 ///< 0: none
   double share = 0.0;            ///< share of the wrench that is rendered [0, 1]
-  std::vector<double> position;  ///< of the joints [rad]
-  std::vector<double> velocity;  ///< of the joints [rad/s]
   std::vector<double> torque;    ///< of the joints [Nm]
-  double late = 0.0;             ///< lateness of waking [s]
+  std::vector<double> position;  ///< of the joints [rad]; empty: the telemetry has none; so `velocity`
+  std::vector<double> velocity;  ///< of the joints [rad/s]
+  double late = 0.0;             ///< lateness of waking [s]; NaN: the telemetry has none; so the next two
   double compute = 0.0;          ///< computing time [s]
   double absorbed = 0.0;         ///< energy that the rendered torques have absorbed [J]
 };
@@ -44,13 +44,15 @@ class TelemetryColumns {
 
  private:
   bool has(std::string_view name) const;
+  void add_if_there(std::string_view name, std::vector<std::size_t>& places) const;
   std::size_t place(std::string_view name) const;
 
   std::vector<std::string> names_;
   std::vector<std::size_t> numbers_;
   std::size_t mode_ = 0;
   std::size_t outcome_ = 0;
-  std::vector<std::size_t> positions_, velocities_, torques_;  ///< of the joints
+  std::vector<std::size_t> torques_, positions_, velocities_;  ///< of the joints
+  std::vector<std::size_t> late_, compute_, absorbed_;         ///< one place, or none
 };
 
 using TelemetryLog = std::vector<TelemetryRow>;

@@ -14,7 +14,6 @@
 #include "hal/linux/monotonic_clock.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/command_line/run.h"
-#include "toolchain/files/scene_image.h"
 #include "toolchain/live/foxglove_viewers.h"
 #include "toolchain/live/live_page.h"
 #include "toolchain/live/live_server.h"
@@ -103,12 +102,7 @@ Shown show_controller(const Options& options, const firmware::ControllerConfig& 
 Shown show_replay(const Options& options, const std::optional<firmware::ControllerConfig>& config) {
   const fs::path image = config ? config->scene.image : fs::path(options.image);
   if (image.empty()) throw Failure(ExitCode::kUsage, "--replay wants --image, or a CONTROLLER.toml with scene.image");
-  std::optional<firmware::Placement> placement;
-  if (config) {
-    const auto scene = files::SceneImage::read(image);
-    placement = firmware::place(config->workspace, config->device, scene.scene.H_MB.translation);
-  }
-  auto run = std::make_unique<live::RecordedRun>(options.replay, image, placement);
+  auto run = std::make_unique<live::RecordedRun>(options.replay, image, config);
   Shown shown;
   shown.page.start = run->start();
   shown.page.force = run->largest_force();

@@ -37,8 +37,12 @@ std::vector<LiveSample> read_samples(const std::filesystem::path& file) {
 }  // namespace
 
 RecordedRun::RecordedRun(const std::filesystem::path& file, const std::filesystem::path& image,
-                         const std::optional<firmware::Placement>& placement)
-    : image_(files::SceneImage::read(image)), placement_(placement), samples_(read_samples(file)) {}
+                         const std::optional<firmware::ControllerConfig>& config)
+    : image_(files::SceneImage::read(image)),
+      placement_(config
+                     ? std::optional(firmware::place(config->workspace, config->device, image_.scene.H_MB.translation))
+                     : std::nullopt),
+      samples_(read_samples(file)) {}
 
 void RecordedRun::take(std::vector<LiveSample>& samples) {
   const std::int64_t now_ns = hal::MonotonicClock().now_ns();

@@ -14,10 +14,10 @@ namespace godobject::live {
 /// A replay or a telemetry that is played in real time, again and again. Only looks.
 class RecordedRun final : public LiveSource {
  public:
-  /// `placement`: of the arm of a telemetry; none: no arm is shown. Throws command::Failure as
+  /// `config`: of the controller that wrote a telemetry; none: no arm is shown. Throws command::Failure as
   /// figures::read_replay_log and files::SceneImage::read.
   RecordedRun(const std::filesystem::path& file, const std::filesystem::path& image,
-              const std::optional<firmware::Placement>& placement);
+              const std::optional<firmware::ControllerConfig>& config);
 
   const SceneView& scene() const override { return image_.scene; }
   const firmware::Placement* placement() const override { return placement_ ? &*placement_ : nullptr; }

@@ -84,8 +84,8 @@ std::string joint_message(std::uint64_t time_ns, std::span<const double> positio
                           std::span<const double> torque) {
   CdrWriter cdr;
   append_header(cdr, time_ns, "");
-  cdr.count(position.size());
-  for (std::size_t i = 1; i <= position.size(); ++i) cdr.string(fmt::format("joint{}", i));
+  cdr.count(torque.size());
+  for (std::size_t i = 1; i <= torque.size(); ++i) cdr.string(fmt::format("joint{}", i));
   append(cdr, position);
   append(cdr, velocity);
   append(cdr, torque);

@@ -26,8 +26,8 @@ std::string transform_message(std::uint64_t time_ns, std::span<const FrameTransf
 /// Returns a geometry_msgs/WrenchStamped: a wrench about the origin of `frame` and along its axes.
 std::string wrench_message(std::uint64_t time_ns, std::string_view frame, const Wrench& wrench);
 
-/// Returns a sensor_msgs/JointState: joints `joint1`, `joint2`, ... Each list has one number a joint
-/// [rad, rad/s, Nm].
+/// Returns a sensor_msgs/JointState: joints `joint1`, `joint2`, ... `torque` has one number a joint [Nm], `position`
+/// [rad] and `velocity` [rad/s], too, or none if they are not known.
 std::string joint_message(std::uint64_t time_ns, std::span<const double> position, std::span<const double> velocity,
                           std::span<const double> torque);
 
