@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/device/kinematics.h"
 #include "tests/live/live_scene.h"
 #include "tests/support/folder_test.h"
 
@@ -118,10 +119,20 @@ TEST_F(StateMessageTest, DrawsTheArmToTheMesh) {
   const std::vector<Vector3> points = arm_points(sample_, placement_, scene_.H_MB.translation);
   ASSERT_EQ(points.size(), 8u);
   EXPECT_LT((points.back() - sample_.H_WD * scene_.H_MB.translation).norm(), 1e-12);
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
-  EXPECT_GT(length, 0.7);
-  EXPECT_LT(length, 2.0);
+  const ArmKinematics arm = forward_kinematics(placement_.device.model, sample_.q);
+  for (std::size_t i = 1; i < points.size() - 1; ++i) {
+    EXPECT_NEAR((points[i] - points[i - 1]).norm(), (arm.H_RL[i].translation - arm.H_RL[i - 1].translation).norm(),
+                1e-9);
+  }
+  firmware::Placement twice = placement_;
+  twice.mapping.scale = 2.0;
+  const std::vector<Vector3> larger = arm_points(sample_, twice, scene_.H_MB.translation);
+  EXPECT_NEAR((larger[2] - larger[0]).norm(), 2.0 * (points[2] - points[0]).norm(), 1e-9);
+  // the clutch turns the mesh about the grip: the arm stays where it is
+  sample_.H_WD.rotation = exp_rotation(Vector3(0.4, -0.3, 0.2));
+  sample_.H_WD.translation += Vector3(points.back() - sample_.H_WD * scene_.H_MB.translation);
+  const std::vector<Vector3> after = arm_points(sample_, placement_, scene_.H_MB.translation);
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT((after[i] - points[i]).norm(), 1e-12) << i;
 }
 
 }  // namespace
