@@ -331,6 +331,44 @@ void BrickTree::halve(std::uint32_t brick, std::uint8_t wanted, const std::array
   touch(brick);
 }
 
+void BrickTree::forget_about(const std::vector<std::uint32_t>& roots) {
+  constexpr int kPositions = 2;  // a finer brick may have been wanted for the sake of one in the next position
+  std::vector<char> forgotten(field_.bricks.size());
+  for (const std::uint32_t root : roots) {
+    const Units& low = places_[root].low;
+    const BrickPosition own = {low[0] / kPositionUnits, low[1] / kPositionUnits, low[2] / kPositionUnits};
+    for (int z = -kPositions; z <= kPositions; ++z) {
+      for (int y = -kPositions; y <= kPositions; ++y) {
+        for (int x = -kPositions; x <= kPositions; ++x) {
+          const std::uint32_t about = root_at(moved(own, {x, y, z}));
+          if (about != kNone) forgotten[about] = 1;
+        }
+      }
+    }
+  }
+  for (std::uint32_t b = 0; b < brick_count(); ++b) {
+    if (forgotten[places_[b].root] != 0) forget_contents(b);
+  }
+}
+
+void BrickTree::forget_contents(std::uint32_t brick) {
+  exact_cells_[brick] = 0;
+  passes_on_[brick] = false;
+  weighed_[brick] = 0;
+  exact_[brick].reset();
+  Place& place = places_[brick];
+  if (place.level > 0) {
+    place.halved = 0xff;
+    refuses_[brick] = false;
+    fine_[brick - field_.bricks.size()] = {};
+    return;
+  }
+  entry_of(brick) = brick;
+  place.halved = 0;
+  refuses_[brick] = field_.beside_seam.size() > brick && field_.beside_seam[brick];
+  touch(brick);
+}
+
 /// Returns the coarsest leaf that touches a node of a brick, if one is coarser than the brick. `about`: leaves_about
 /// the brick. A coarser leaf beside the brick touches the whole face, edge or corner. A position that is not stored
 /// counts as coarse, with the values of the root.

@@ -124,6 +124,10 @@ class BrickTree {
   /// Makes the field continuous, coarse to fine: a node that touches a coarser leaf takes that leaf's value and weight.
   void join();
 
+  /// Makes the positions of these roots, and those up to two positions away, as they were at the start: nothing in them
+  /// is halved, exact or refused. Their finer bricks keep their numbers, hold nothing and are whole in no octant.
+  void forget_about(const std::vector<std::uint32_t>& roots);
+
   /// Counts a brick as changed in the next `join`, as if an octant of it had been halved.
   void touch(std::uint32_t brick) { touched_.push_back(root(brick)); }
 
@@ -161,6 +165,7 @@ class BrickTree {
 
   Leaf coarsest_about(std::uint32_t brick, const std::array<int, 3>& node, const std::array<Leaf, 26>& about) const;
   std::uint32_t root_at(const BrickPosition& position) const;
+  void forget_contents(std::uint32_t brick);
   void mark_changed();
   void mark_changed_about(std::uint32_t root);
   void join_brick(std::uint32_t brick);

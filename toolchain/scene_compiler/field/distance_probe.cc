@@ -73,11 +73,12 @@ void DistanceProbe::sum_winding(const Eigen::Vector3d& p) {
   path_left_ = surface_.constant_side_path(p, winding_number_);
 }
 
-double DistanceProbe::signed_distance(const Eigen::Vector3d& p) {
+double DistanceProbe::signed_distance(const Eigen::Vector3d& p, double at_most) {
   const bool first = to_solids_ < 0.0;
   const double step = (p - last_).norm();
   const bool same_side = !first && keeps_side(p, step);
-  to_solids_ = surface_.distance_to_solids(p, first ? -1.0 : to_solids_ + step);
+  const double to_solids = std::min(first ? std::numeric_limits<double>::infinity() : to_solids_ + step, at_most);
+  to_solids_ = surface_.distance_to_solids(p, std::isfinite(to_solids) ? to_solids : -1.0);
   to_shells_ = surface_.distance_to_shells(p, first ? -1.0 : to_shells_ + step);
   if (same_side) {
     path_left_ -= step;

@@ -35,19 +35,18 @@ class Refinement {
         surface_(surface),
         tolerance_(tolerance),
         slack_(slack),
-        facets_(surface, kFlat * tolerance.inside),
-        barred_(field.bricks.size()) {
-    for (std::size_t i = 0; i < field.bricks.size(); ++i) {
-      barred_[i] = field.beside_seam[i] && holds_seam(field.bricks[i], field.grid.voxel_size);
-    }
+        facets_(surface, kFlat * tolerance.inside) {
     triangles_.resize(surface.mesh().triangles.size());
     std::iota(triangles_.begin(), triangles_.end(), 0u);
   }
 
-  /// Refines the field. False if a position had to be barred: then start again without it.
-  bool run(const parallel::Progress& progress) {
+  RefinementReport run(const parallel::Progress& progress) {
+    const std::size_t positions = field_.bricks.size();
     BrickTree tree(field_, facets_);
-    std::vector<bool> barred = barred_;
+    std::vector<bool> barred(positions);  // by brick number
+    for (std::size_t i = 0; i < positions; ++i) {
+      barred[i] = field_.beside_seam[i] && holds_seam(field_.bricks[i], field_.grid.voxel_size);
+    }
     std::vector<std::uint32_t> triangles = triangles_;
     Compared compared;
     std::uint32_t sloped = 0;  // joins after which all slopes were measured
@@ -61,7 +60,13 @@ class Refinement {
           continue;
         }
         Steep steep = find_steep(tree, barred, sloped);
-        if (!steep.possible) return false;
+        if (!steep.hopeless.empty()) {  // all slopes are measured again: others may be steep because of these
+          for (const std::uint32_t root : steep.hopeless) barred[root] = true;
+          tree.forget_about(steep.hopeless);
+          tree.join();
+          triangles = triangles_;
+          continue;
+        }
         sloped = tree.joins();
         if (steep.wanted.empty() && steep.refused.empty()) {
           misses.worst.in_tolerances *= kSlack;
@@ -86,14 +91,12 @@ class Refinement {
     report_.facets = field_.facets.size();
     report_.sets = field_.facet_sets.size();
     report_.numbers = field_.facet_numbers.size();
-    report_.finer = field_.bricks.size() - barred_.size();
+    report_.finer = field_.bricks.size() - positions;
     for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
       if (tree.whole(b) != 0) ++report_.bricks[static_cast<std::size_t>(tree.level(b))];
     }
-    return true;
+    return report_;
   }
-
-  const RefinementReport& report() const { return report_; }
 
  private:
   /// Halves the wanted octants. Bars the bricks in which a seam would appear.
@@ -127,9 +130,9 @@ class Refinement {
 
   /// Bricks whose slope is too steep, by what is to be done about them.
   struct Steep {
-    Wanted wanted;                       ///< to be halved
-    std::vector<std::uint32_t> refused;  ///< to be exact no longer
-    bool possible = true;                ///< false: a position was barred
+    Wanted wanted;                        ///< to be halved
+    std::vector<std::uint32_t> refused;   ///< to be exact no longer
+    std::vector<std::uint32_t> hopeless;  ///< roots of positions that no halving makes less steep
   };
 
   /// Finds the bricks whose slope is too steep: coarse values beside finer exact ones, or the transition to the
@@ -158,8 +161,7 @@ class Refinement {
         found = true;
       }
       if (found) continue;
-      barred_[tree.root(b)] = true;
-      steep.possible = false;
+      steep.hopeless.push_back(tree.root(b));
     }
     return steep;
   }
@@ -170,8 +172,7 @@ class Refinement {
   double slack_;
   const SurfaceFacets facets_;
   std::vector<std::uint32_t> triangles_;         // all
-  std::vector<bool> barred_;                     // positions, by brick number
-  std::map<std::array<int, 4>, Octants> known_;  // of bricks that were halved before a restart, by place
+  std::map<std::array<int, 4>, Octants> known_;  // of bricks that are halved or were, by place
   RefinementReport report_;
 };
 
@@ -179,10 +180,7 @@ class Refinement {
 
 RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, const SurfaceTolerance& tolerance,
                         const parallel::Progress& progress, double slack) {
-  Refinement refinement(field, surface, tolerance, slack);
-  while (!refinement.run(progress)) {
-  }
-  return refinement.report();
+  return Refinement(field, surface, tolerance, slack).run(progress);
 }
 
 void round_distances(DistanceGrid& field) {

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -104,8 +105,15 @@ class SurfaceCheck {
     DistanceProbe& above;
     DistanceProbe& below;
     SurfaceError& worst;  ///< that no halving reduces
+    bool of_solid;        ///< the triangle is the surface; else half of the sheet's thickness lies between them
     double outward;       ///< 1 if the normal leads out of the body, else -1
     std::uint32_t seen;   ///< joins up to this one were seen by an earlier comparison; kNone: there was none
+
+    /// The exact distance at a point that is `away` from a point of the triangle [m], on the outer or the inner side.
+    double distance(DistanceProbe& probe, const Vector3d& p, double away) const {
+      constexpr double kRounding = 1e-6;  // of the bound; a bound that is too small costs time only
+      return of_solid ? probe.signed_distance(p, (1.0 + kRounding) * away) : probe.signed_distance(p);
+    }
   };
 
   static constexpr std::uint32_t kNone = ~0u;
@@ -128,7 +136,7 @@ class SurfaceCheck {
     Corners corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = surface_.mesh().vertices[triangle[i]];
     const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-    Sides sides{normal, above, below, worst, component.inside_out ? -1.0 : 1.0, seen(number)};
+    Sides sides{normal, above, below, worst, !component.shell, component.inside_out ? -1.0 : 1.0, seen(number)};
     bool missed = !component.shell && check_piece(corners, sides);
     for (const double side : {-0.5, 0.5}) {
       if (!component.shell) break;
@@ -332,13 +340,17 @@ class SurfaceCheck {
   /// Checks p in `leaf`. `center` is a point of the same triangle off its rim.
   bool check_point(const Vector3d& p, const BrickTree::Leaf& leaf, const Vector3d& center, Sides& sides) {
     if (leaf.brick == BrickTree::kNone) return false;
-    const auto matters = [&] { return bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides); };
-    bool missed = check_value(p, leaf, 0.0, matters, sides.worst);
+    std::optional<bool> known;  // two exact distances, asked for at most once
+    const auto matters = [&] {
+      if (!known) known = bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides);
+      return *known;
+    };
+    // a point that is missed is checked again after the halving, so one miss of it is enough
+    if (check_value(p, leaf, 0.0, matters, sides.worst)) return true;
     // with a steeper field the level 0 is no deeper than the tolerance, whatever the value at p
-    if (tree_.interpolate(leaf, p) > kSurelySteep * tolerance_.inside) {
-      missed = check_below(p, 0.0, matters, sides) || missed;
-    }
-    return slack_ > 0.0 ? check_below(p, slack_, matters, sides) || missed : missed;
+    if (tree_.interpolate(leaf, p) > kSurelySteep * tolerance_.inside && check_below(p, 0.0, matters, sides))
+      return true;
+    return slack_ > 0.0 && check_below(p, slack_, matters, sides);
   }
 
   /// Checks the point at the tolerance below the level `depth` under p. Where the field is flat, its zero level may lie
@@ -348,13 +360,12 @@ class SurfaceCheck {
   bool check_below(const Vector3d& p, double depth, const Matters& matters, Sides& sides) {
     const Vector3d q = below(p, depth + tolerance_.inside, sides);
     const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(q));
-    if (leaf.brick == BrickTree::kNone || tree_.interpolate(leaf, q) <= -depth || !matters()) return false;
-    const double exact = (sides.outward > 0.0 ? sides.below : sides.above).signed_distance(q);
+    if (leaf.brick == BrickTree::kNone || tree_.interpolate(leaf, q) <= -depth) return false;
+    const double exact = sides.distance(sides.outward > 0.0 ? sides.below : sides.above, q, depth + tolerance_.inside);
     // q may be less deep: near an edge, or in a thin wall
     if (exact > -depth - kWholeDepth * tolerance_.inside) return false;
     const double worst_before = sides.worst.in_tolerances;
-    const bool missed = check_value(
-        q, leaf, exact, [] { return true; }, sides.worst);
+    const bool missed = check_value(q, leaf, exact, matters, sides.worst);
     if (sides.worst.in_tolerances > worst_before) sides.worst.at = p;
     return missed;
   }
@@ -399,8 +410,10 @@ class SurfaceCheck {
     const Vector3d inward = center - p;
     const double length = inward.norm();
     const Vector3d beside = length > 0.0 ? Vector3d(p + inward * std::min(1.0, 0.5 * cell_edge / length)) : p;
-    const Vector3d step = kStepOff * cell_edge * sides.normal;
-    return (sides.above.signed_distance(beside + step) < 0.0) != (sides.below.signed_distance(beside - step) < 0.0);
+    const double off = kStepOff * cell_edge;
+    const Vector3d step = off * sides.normal;
+    return (sides.distance(sides.above, beside + step, off) < 0.0) !=
+           (sides.distance(sides.below, beside - step, off) < 0.0);
   }
 
   const SolidSurface& surface_;
