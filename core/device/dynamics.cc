@@ -31,6 +31,21 @@ Composite join(const Composite& a, const Composite& b) noexcept {
   return sum;
 }
 
+/// Momentum of bodies and its moment about the base's origin A, on the axes of R.
+struct SpatialMomentum {
+  Vector3 linear_R = Vector3::Zero();
+  Vector3 angular_R = Vector3::Zero();
+
+  /// Adds a body whose frame X moves with the tool twist: velocity of the point at A and angular velocity.
+  void add(const LinkMass& body, const Pose& H_RX, const Vector3& p_RA, const Motion& at_A) noexcept {
+    const Composite placed = in_room(body, H_RX);
+    const Vector3 arm_R = placed.com_R - p_RA;
+    const Vector3 momentum_R = placed.mass * (at_A.translation + at_A.rotation.cross(arm_R));
+    linear_R += momentum_R;
+    angular_R += placed.inertia_R * at_A.rotation + arm_R.cross(momentum_R);
+  }
+};
+
 }  // namespace
 
 JointVector gravity_torque(const ArmModel& model, const ArmKinematics& kinematics) noexcept {
@@ -67,6 +82,34 @@ JointMatrix mass_matrix(const ArmModel& model, const ArmKinematics& kinematics) 
     matrix(j, j) += model.joints[k].rotor;
   }
   return matrix;
+}
+
+ArmMomentum arm_momentum(const ArmModel& model, const ArmKinematics& kinematics, const JointVector& qd) noexcept {
+  const Vector3& p_RA = model.H_RA.translation;
+  std::array<Vector3, kMaxJoints> moment_R;  // with the axis the unit twist of a joint at A
+  std::array<Motion, kMaxJoints> twist_R;    // of each link, at A
+  Motion sum;
+  for (int i = 0; i < model.joint_count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    moment_R[k] = (kinematics.H_RL[k].translation - p_RA).cross(kinematics.axis_R[k]);
+    sum.translation += qd[i] * moment_R[k];
+    sum.rotation += qd[i] * kinematics.axis_R[k];
+    twist_R[k] = sum;
+  }
+  ArmMomentum result;
+  SpatialMomentum beyond;
+  beyond.add(model.payload, kinematics.H_RM, p_RA, sum);
+  for (int i = model.joint_count - 1; i >= 0; --i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Vector3& axis_R = kinematics.axis_R[k];
+    const Motion& twist = twist_R[k];
+    beyond.add(model.joints[k].link, kinematics.H_RL[k], p_RA, twist);
+    result.momentum[i] =
+        axis_R.dot(beyond.angular_R) + moment_R[k].dot(beyond.linear_R) + model.joints[k].rotor * qd[i];
+    result.change[i] = -beyond.angular_R.dot(axis_R.cross(twist.rotation)) -
+                       beyond.linear_R.dot(axis_R.cross(twist.translation) + moment_R[k].cross(twist.rotation));
+  }
+  return result;
 }
 
 }  // namespace godobject
