@@ -143,7 +143,11 @@ void DirectDrives::apply_commands() noexcept {
         continue;
       }
       pending.waits[at(i)] = false;
-      hardware_[at(i)].command(pending.command.power, pending.command.torque[i], now_ns());
+      double torque = pending.command.torque[i];
+      if (const DriveFault* const limit = fault(FaultKind::kTorqueLimited, i); limit != nullptr) {
+        torque = std::clamp(torque, -limit->value, limit->value);
+      }
+      hardware_[at(i)].command(pending.command.power, torque, now_ns());
     }
     if (!waits && k == first_pending_) ++first_pending_;
   }

@@ -18,6 +18,7 @@ ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) no
       drives_(drives),
       position_check_(*setup.arm, setup.stuck_torque, setup.period),
       velocity_(setup.velocity_window, setup.period),
+      model_(*setup.arm, setup.period),
       supervisor_(*setup.arm, setup.supervisor),
       limiter_(*setup.arm, setup.torque),
       observer_(drives.delay() / setup.period),
@@ -44,6 +45,7 @@ void ControlCycle::run_once(const LoopEvents& events) noexcept {
   Status status = estimate_velocity(events.skipped);
   observe_energy();
   const ArmKinematics kinematics = forward_kinematics(*setup_.arm, positions_.q);
+  watch_model(kinematics, events.skipped);
   if (status == Status::kOk) status = render(kinematics);          // mapping, #1 - #7, limits at the hand
   if (status == Status::kOk) status = compute_torque(kinematics);  // J^T
   const Decision decision = supervisor_.step(observe(events, status));
@@ -73,6 +75,13 @@ void ControlCycle::observe_energy() noexcept {
     passivity_.reset();
   }
   if (positions_.finite) observer_.observe(positions_.q);
+}
+
+/// Compares the arm with its model while all drives give torque. A period without a cycle would look like a push.
+void ControlCycle::watch_model(const ArmKinematics& kinematics, std::uint32_t skipped) noexcept {
+  const bool enabled = summarize(reading_, setup_.arm->joint_count).all_enabled;
+  if (!enabled || skipped > 0 || !supervisor_.follows_positions()) return model_.reset();
+  model_.update(kinematics, qd_, reading_, record_.torque, contact_force() < setup_.supervisor.engage_force);
 }
 
 /// Interpolates positions for periods without a cycle, since the estimator needs one a period.
@@ -166,6 +175,10 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
   }
   seen.too_fast = at_hand_.too_fast || limiter_.too_fast(qd_) || positions_.runs_away;
   seen.status = status;
+  seen.pushed_joint = model_.pushed_joint();
+  seen.is_weight = model_.is_weight();
+  seen.drifts = model_.drifts();
+  seen.wrong_torque_joint = model_.wrong_torque_joint();
   seen.contact_force = contact_force();
   seen.inside = report_.outcome == Outcome::kStartInside;
   seen.overrun_ns = events.overrun_ns;

@@ -11,6 +11,7 @@
 #include "core/device/workspace_mapping.h"
 #include "core/scene/scene_view.h"
 #include "firmware/cycle/hand_limits.h"
+#include "firmware/cycle/model_watch.h"
 #include "firmware/cycle/position_check.h"
 #include "firmware/cycle/supervisor.h"
 #include "firmware/cycle/torque_limiter.h"
@@ -124,6 +125,7 @@ class ControlCycle {
  private:
   void begin_positions_anew() noexcept;
   void observe_energy() noexcept;
+  void watch_model(const ArmKinematics& kinematics, std::uint32_t skipped) noexcept;
   Status estimate_velocity(std::uint32_t skipped) noexcept;
   bool opens_clutch() noexcept;
   double contact_force() const noexcept;
@@ -137,6 +139,7 @@ class ControlCycle {
   hal::JointDrives& drives_;
   PositionCheck position_check_;
   VelocityEstimator velocity_;
+  ModelWatch model_;
   Supervisor supervisor_;
   TorqueLimiter limiter_;
   std::optional<WorkspaceMapping> mapping_;  // made at the first posture

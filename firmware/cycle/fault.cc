@@ -33,6 +33,17 @@ const char* describe(Fault fault) noexcept {
     case Fault::kComputedLate:
       return "cycles computed for longer than loop.compute too often; raise it, set or lower loop.cycle_budget, or run "
              "godobject-controller doctor";
+    case Fault::kNotBalanced:
+      return "the arm moved or was pushed while it engaged; keep the hand off it until it renders, or correct masses "
+             "and "
+             "payload in the device file";
+    case Fault::kDrifts:
+      return "the arm drifted as a wrong load moves it; correct masses and payload in the device file, and hold the "
+             "tool";
+    case Fault::kTorqueWrong:
+      return "a drive's measured torque does not follow its command; read its own error display, check rated_torque "
+             "and "
+             "its current limits";
   }
   return "unknown fault";
 }

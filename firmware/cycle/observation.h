@@ -33,6 +33,10 @@ struct Observation {
   int joint_beyond_limit = -1;          ///< a joint beyond its position limit; -1: none
   bool too_fast = false;                ///< hand or joint above its stop speed, or a joint that runs away
   Status status = Status::kOk;          ///< of velocity estimate, mapping, god object and joint torque
+  int pushed_joint = -1;                ///< joint with a large external torque; -1: none
+  bool is_weight = false;               ///< the external torque is that of wrong masses
+  bool drifts = false;                  ///< ModelWatch::drifts
+  int wrong_torque_joint = -1;          ///< joint whose drive measures another torque than was sent; -1: none
   double contact_force = 0.0;           ///< size of the computed wrench [N]; torques count at the rotation length
   bool inside = false;                  ///< the god object started inside and is not yet outside
   std::int64_t overrun_ns = 0;          ///< of the previous cycle

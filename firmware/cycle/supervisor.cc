@@ -53,7 +53,7 @@ Decision Supervisor::step(const Observation& seen) noexcept {
       enter(Mode::kFade);
     }
   } else if (fault != Fault::kNone) {
-    stop(fault, fault == Fault::kJointLimit ? seen.joint_beyond_limit : -1);
+    stop(fault, joint_of(fault, seen));
   }
   if (seen.end_requested && !ending_) begin_ending();
   advance(seen);
@@ -81,6 +81,12 @@ void Supervisor::enter(Mode mode) noexcept {
   in_mode_ = 1;
 }
 
+/// Enters a mode in which the joints should stay where they are.
+void Supervisor::enter_at(Mode mode, const Observation& seen) noexcept {
+  reference_ = seen.q;
+  enter(mode);
+}
+
 void Supervisor::stop(Fault fault, int joint) noexcept {
   if (fault_ == Fault::kNone) {
     fault_ = fault;
@@ -89,6 +95,15 @@ void Supervisor::stop(Fault fault, int joint) noexcept {
   share_ = 0.0;
   stop_cycles_ = cycles_.fault_stop;
   enter(powered() ? Mode::kStopping : Mode::kStopped);
+}
+
+int Supervisor::joint_of(Fault fault, const Observation& seen) noexcept {
+  switch (fault) {
+    case Fault::kJointLimit: return seen.joint_beyond_limit;
+    case Fault::kNotBalanced: return seen.pushed_joint;
+    case Fault::kTorqueWrong: return seen.wrong_torque_joint;
+    default: return -1;
+  }
 }
 
 /// The fault of this cycle in this mode.
@@ -116,8 +131,17 @@ Fault Supervisor::find_fault_with_power(const Observation& seen) const noexcept 
   if (jumps_too_often(seen)) return Fault::kPositionJump;
   if (seen.stuck) return Fault::kEncoderStuck;
   if (seen.joint_beyond_limit >= 0) return Fault::kJointLimit;
+  if (seen.wrong_torque_joint >= 0) return Fault::kTorqueWrong;
+  if (is_unbalanced(seen)) return Fault::kNotBalanced;
+  if (mode_ == Mode::kRunning && seen.drifts) return Fault::kDrifts;
   if (too_late_) return seen.overrun_ns >= seen.computed_late_ns ? Fault::kOverruns : Fault::kComputedLate;
   return seen.sends_failed >= cycles_.to_loss ? Fault::kSendFailed : Fault::kNone;
+}
+
+/// Nobody should push while the arm engages. Before that the hand may have to leave a contact.
+bool Supervisor::is_unbalanced(const Observation& seen) const noexcept {
+  if (mode_ == Mode::kEngaging) return seen.pushed_joint >= 0 || moved(seen, kEngagingMoves);
+  return (mode_ == Mode::kArmed || before_sign_is_known()) && seen.is_weight && moved(seen, kMovesAway);
 }
 
 /// A drive that has power without a request is as bad as one that has tripped.
@@ -140,7 +164,7 @@ void Supervisor::advance(const Observation& seen) noexcept {
     case Mode::kEnabling: return wait_for_power(seen);
     case Mode::kSignTest: return test_sign(seen);
     case Mode::kArmed:
-      if (!seen.inside && seen.contact_force < parameters_.engage_force) enter(Mode::kEngaging);
+      if (!seen.inside && seen.contact_force < parameters_.engage_force) enter_at(Mode::kEngaging, seen);
       return;
     case Mode::kEngaging: return raise_share();
     case Mode::kEnding: return lower_share();
@@ -212,7 +236,7 @@ void Supervisor::wait_for_power(const Observation& seen) noexcept {
   if (moved(seen, kMovesAway)) {
     stop(Fault::kSignWrong);
   } else if (seen.drives.all_enabled) {
-    enter(sign_tested_ ? Mode::kArmed : Mode::kSignTest);
+    enter_at(sign_tested_ ? Mode::kArmed : Mode::kSignTest, seen);
   } else if (in_mode_ > parameters_.prepare_cycles + cycles_.enable) {
     stop(Fault::kDriveLeft);
   }
@@ -222,7 +246,7 @@ void Supervisor::test_sign(const Observation& seen) noexcept {
   const SignTest::Result result = sign_test_.update(seen.q, test_torque_);
   if (result == SignTest::Result::kPassed) {
     sign_tested_ = true;
-    enter(Mode::kArmed);
+    enter_at(Mode::kArmed, seen);
   } else if (result != SignTest::Result::kRunning) {
     stop(result == SignTest::Result::kWrong ? Fault::kSignWrong : Fault::kSignUndecided, sign_test_.joint());
   } else if (moved(seen, kMovesAway)) {

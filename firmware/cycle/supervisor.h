@@ -86,9 +86,13 @@ class Supervisor {
   /// Motion that the zero check allows [rad]. 0.001 to 0.005. With 0.02 a joint that moves 6 mrad with its brake closed
   /// passes.
   static constexpr double kAtRest = 0.005;
-  /// Motion of a joint that ends enabling and sign test [rad]. 0.05 to 0.2. With 0.01 the test of an encoder that
-  /// stands still fails.
+  /// Motion of a joint that ends enabling and sign test [rad]. 0.05 to 0.2. With 0.01 the test of an encoder
+  /// that stands still fails.
   static constexpr double kMovesAway = 0.05;
+
+  /// The same while the arm engages, when nobody should push. 0.02: some 10 mm at the tool. Tests of hands that hold the
+  /// tool pass with 0.005.
+  static constexpr double kEngagingMoves = 0.02;
 
   Supervisor(const ArmModel& arm, const Parameters& parameters) noexcept;
 
@@ -111,10 +115,13 @@ class Supervisor {
 
  private:
   void enter(Mode mode) noexcept;
+  void enter_at(Mode mode, const Observation& seen) noexcept;
+  static int joint_of(Fault fault, const Observation& seen) noexcept;
   void stop(Fault fault, int joint = -1) noexcept;
   void begin_ending() noexcept;
   Fault find_fault(const Observation& seen) const noexcept;
   Fault find_fault_with_power(const Observation& seen) const noexcept;
+  bool is_unbalanced(const Observation& seen) const noexcept;
   Fault find_fault_without_power(const Observation& seen) const noexcept;
   bool jumps_too_often(const Observation& seen) const noexcept { return seen.jumps >= kJumpsInRow || too_many_jumps_; }
   bool moved(const Observation& seen, double more_than) const noexcept;

@@ -91,7 +91,7 @@ CycleSetup run_setup(const SceneView& scene, const Placement& placement) {
   setup.mapping = placement.mapping;
   setup.velocity_window = SimulatedRun::kVelocityWindow;
   setup.stuck_torque = 0.002;
-  setup.supervisor.engage_cycles = 50;
+
   return setup;
 }
 
@@ -113,6 +113,9 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
   set_run_gains(options.scene_stiffness, scene_);
   if (options.weightless) placement_.device.model.gravity_R.setZero();
   const ArmModel& arm = placement_.device.model;
+  ArmModel real = arm;
+  real.payload.mass += options.more_payload;
+  for (ArmJoint& joint : real.joints) joint.link.mass *= 1.0 + options.more_mass;
   hardware_ = sim::usual_hardware(arm);
   for (auto& joint : hardware_) {
     joint.counter_at_zero = options.counter_at_zero;
@@ -125,7 +128,7 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
   sim::HandParameters hand;
   hand.grip = load_ ? sim::Grip::kNone : sim::Grip::kSpring;
   plant_ =
-      std::make_unique<sim::Plant>(arm, SimulatedRun::posture(), options.dry_friction,
+      std::make_unique<sim::Plant>(real, SimulatedRun::posture(), options.dry_friction,
                                    sim::OperatorHand(hand, path_R_, static_cast<std::int64_t>(1e9 * options.begin)));
   drives_ = std::make_unique<sim::DirectDrives>(*plant_, hardware_, options.timing, faults_);
   clock_ = std::make_unique<sim::VirtualClock>(*drives_, late_);
@@ -134,6 +137,7 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
 
   CycleSetup setup = run_setup(scene_, placement_);
   setup.friction = options.friction;
+  setup.supervisor.engage_cycles = options.engage_cycles;
   setup.hand = options.hand;
   setup.supervisor.sign_test = options.sign_test;
   setup.memory = memory_.span();

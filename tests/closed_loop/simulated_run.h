@@ -76,6 +76,9 @@ class SimulatedRun {
     /// Returns the wrench on the tool about its origin in each cycle, in place of the hand's grip. If it is set, the
     /// drives round nothing, and motions that leave the tool at rest are not damped.
     std::function<Wrench(std::int64_t cycle, const sim::BodyState& tool)> load;
+    std::uint32_t engage_cycles = 50;
+    double more_payload = 0.0;                 ///< at the tool of the real arm, of which the model knows nothing [kg]
+    double more_mass = 0.0;                    ///< of the real arm's links: share of the model's
     bool weightless = false;                   ///< no gravity acts, and the controller compensates none
     Quaternion turn = Quaternion::Identity();  ///< as in `run_placement`
   };

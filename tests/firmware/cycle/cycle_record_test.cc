@@ -171,7 +171,7 @@ TEST_F(CycleRecordTest, CountsLimitsOnlyWhileItRenders) {
 }
 
 TEST_F(CycleRecordTest, CountsCyclesInWhichTheJointsCannotGiveTheWholeWrench) {
-  for (ArmJoint& joint : arm_.model.joints) joint.torque = std::min(joint.torque, 30.0);
+  for (ArmJoint& joint : arm_.model.joints) joint.torque = std::min(joint.torque, 40.0);
   setup_.hand.force = 140.0;
   scene_.settings.stiffness = 20'000.0;
   make();
@@ -184,7 +184,7 @@ TEST_F(CycleRecordTest, CountsCyclesInWhichTheJointsCannotGiveTheWholeWrench) {
 
 /// A cycle that finds a fault renders nothing, whatever it has computed before.
 TEST_F(CycleRecordTest, CountsNoLimitInTheCycleThatStops) {
-  for (ArmJoint& joint : arm_.model.joints) joint.torque = std::min(joint.torque, 30.0);
+  for (ArmJoint& joint : arm_.model.joints) joint.torque = std::min(joint.torque, 40.0);
   setup_.hand.force = 100.0;
   scene_.settings.stiffness = 20'000.0;
   make();

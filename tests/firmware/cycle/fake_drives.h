@@ -25,6 +25,7 @@ class FakeDrives final : public hal::JointDrives {
   bool send(const hal::JointCommand& command) noexcept override {
     sent = command;
     ++sends;
+    if (follows_torque) reading.torque = command.torque;
     using hal::DriveState;
     for (int i = 0; i < joint_count_; ++i) {
       DriveState& state = reading.state[static_cast<std::size_t>(i)];
@@ -49,6 +50,7 @@ class FakeDrives final : public hal::JointDrives {
   int requests = 0;
   int sends = 0;
   bool fails_to_send = false;
+  bool follows_torque = true;  ///< measures the torque that was sent
 
  private:
   static constexpr int kReleased = 150;

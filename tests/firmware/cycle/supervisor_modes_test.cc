@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -117,6 +118,11 @@ const std::vector<ModeRow> kRows = {
     {"computed 5 ms too long", "..............", Fault::kNone, [](Observation& o) { o.computed_late_ns = 5'000'000; }},
     {"computed longer than that", "...xxxxxk...x.", Fault::kComputedLate,
      [](Observation& o) { o.computed_late_ns = 5'000'001; }},
+    {"a drive's torque is wrong", "...xxxxxk...x.", Fault::kTorqueWrong,
+     [](Observation& o) { o.wrong_torque_joint = 3; }},
+    {"a joint is pushed", "......x.......", Fault::kNotBalanced, [](Observation& o) { o.pushed_joint = 3; }},
+    {"a weight pushes", "..............", Fault::kNone, [](Observation& o) { o.is_weight = true; }},
+    {"it drifts", ".......x......", Fault::kDrifts, [](Observation& o) { o.drifts = true; }},
     {"second failed send", "..............", Fault::kNone, [](Observation& o) { o.sends_failed = 2; }},
     {"third failed send", "...xxxxxk...x.", Fault::kSendFailed, [](Observation& o) { o.sends_failed = 3; }},
     {"lost twice", "h.............", Fault::kNone, [](Observation& o) { o.lost = 2; }},
@@ -194,7 +200,8 @@ void expect_row(const ModeRow& row, Mode mode, char follows) {
   with.seen.lost = with.seen.jumps = with.seen.sends_failed = 0;
   const Supervisor& supervisor = with.supervisor;
   const Fault earlier = before.supervisor.fault();
-  const int beyond = shown.joint_beyond_limit;
+  const int culprit =
+      std::max({shown.joint_beyond_limit, shown.wrong_torque_joint, shown.pushed_joint});  // one of them
   const auto expect_stopped_by = [&](Fault fault, int joint) {
     expect_stop(with, before, shown.drives);
     EXPECT_EQ(supervisor.fault(), fault);
@@ -205,10 +212,10 @@ void expect_row(const ModeRow& row, Mode mode, char follows) {
   };
   switch (follows) {
     case '.': EXPECT_TRUE(is_same(with, without)); return;
-    case 'x': return expect_stopped_by(row.fault, row.fault == Fault::kJointLimit ? beyond : -1);
+    case 'x': return expect_stopped_by(row.fault, culprit);
     case 'k': return expect_stopped_by(earlier, -1);
     case 'w': return expect_stopped_by(Fault::kSignWrong, -1);
-    case 'o': return expect_stopped_by(Fault::kOutsideLimits, beyond);
+    case 'o': return expect_stopped_by(Fault::kOutsideLimits, culprit);
     case 'l': return expect_stopped_by(Fault::kPositionLost, -1);
     case 'h':
       EXPECT_EQ(supervisor.mode(), mode);
@@ -267,6 +274,8 @@ TEST(SupervisorModes, NameTheFirstOfTwoCausesInTheSameCycle) {
       {Fault::kPositionJump, [](Observation& o) { o.jumps = 2; }},
       {Fault::kEncoderStuck, [](Observation& o) { o.stuck = true; }},
       {Fault::kJointLimit, [](Observation& o) { o.joint_beyond_limit = 1; }},
+      {Fault::kTorqueWrong, [](Observation& o) { o.wrong_torque_joint = 1; }},
+      {Fault::kDrifts, [](Observation& o) { o.drifts = true; }},
       {Fault::kOverruns, [](Observation& o) { o.overrun_ns = 6'000'000; }},
       {Fault::kComputedLate, [](Observation& o) { o.computed_late_ns = 6'000'000; }},
       {Fault::kSendFailed, [](Observation& o) { o.sends_failed = 3; }},
@@ -279,7 +288,8 @@ TEST(SupervisorModes, NameTheFirstOfTwoCausesInTheSameCycle) {
       causes[i].second(bench.seen);
       bench.step();
       EXPECT_EQ(bench.supervisor.fault(), causes[i].first) << i << ' ' << j;
-      EXPECT_EQ(bench.supervisor.fault_joint(), causes[i].first == Fault::kJointLimit ? 1 : -1) << i << ' ' << j;
+      const bool has_joint = causes[i].first == Fault::kJointLimit || causes[i].first == Fault::kTorqueWrong;
+      EXPECT_EQ(bench.supervisor.fault_joint(), has_joint ? 1 : -1) << i << ' ' << j;
       // a later cause does not replace the first one
       Bench later = running;
       causes[i].second(later.seen);
@@ -288,7 +298,7 @@ TEST(SupervisorModes, NameTheFirstOfTwoCausesInTheSameCycle) {
       causes[j].second(later.seen);
       for (int k = 0; k < 3; ++k) later.step();
       EXPECT_EQ(later.supervisor.fault(), causes[i].first) << i << ' ' << j;
-      EXPECT_EQ(later.supervisor.fault_joint(), causes[i].first == Fault::kJointLimit ? 1 : -1) << i << ' ' << j;
+      EXPECT_EQ(later.supervisor.fault_joint(), has_joint ? 1 : -1) << i << ' ' << j;
     }
   }
 }
