@@ -65,19 +65,18 @@ class PassivityObserver {
 class PassivityController {
  public:
   struct Parameters {
-    double most_damping = 0.0;      ///< b_max [Ns/m]; 0: the wrench does not change
-    double period = 1e-3;           ///< T [s]
-    double rotation_length = 0.1;   ///< L [m]
-    double delay_in_periods = 0.0;  ///< t_d / T
+    double most_damping = 0.0;     ///< b_max [Ns/m]; 0: the wrench does not change
+    double period = 1e-3;          ///< T [s]
+    double rotation_length = 0.1;  ///< L [m]
   };
 
   /// Least periods until a surplus is forgotten. Chosen: more than those for which a torque acts after it was sent,
   /// where the delay is below 14 periods.
   static constexpr int kForget = 16;
 
-  explicit PassivityController(const Parameters& parameters) noexcept
-      : parameters_(parameters),
-        forget_(std::max(kForget, static_cast<int>(std::ceil(parameters.delay_in_periods)) + 2)) {}
+  /// `delay_in_periods`: t_d / T, as for the observer.
+  PassivityController(const Parameters& parameters, double delay_in_periods) noexcept
+      : parameters_(parameters), forget_(std::max(kForget, static_cast<int>(std::ceil(delay_in_periods)) + 2)) {}
 
   /// Forgets debt and surplus. The caller resets the observer, too.
   void reset() noexcept;

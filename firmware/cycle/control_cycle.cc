@@ -4,15 +4,6 @@
 
 namespace godobject::firmware {
 
-namespace {
-
-PassivityController::Parameters with_delay(PassivityController::Parameters parameters, double periods) noexcept {
-  parameters.delay_in_periods = periods;
-  return parameters;
-}
-
-}  // namespace
-
 ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept
     : setup_(setup),
       drives_(drives),
@@ -22,7 +13,7 @@ ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) no
       supervisor_(*setup.arm, setup.supervisor),
       limiter_(*setup.arm, setup.torque),
       observer_(drives.delay() / setup.period),
-      passivity_(with_delay(setup.passivity, drives.delay() / setup.period)) {}
+      passivity_(setup.passivity, drives.delay() / setup.period) {}
 
 Status ControlCycle::start(Solver solver, bool friction) noexcept {
   const Pose before = god_object_.mesh_pose();

@@ -11,6 +11,7 @@ namespace godobject {
 namespace {
 
 constexpr double kPeriod = 1e-3;
+constexpr double kDelay = 1.0;  // in periods
 
 JointVector joint(double value) {
   JointVector all = JointVector::Zero();
@@ -122,18 +123,18 @@ const Motion kIn{.translation = {0.0, 0.0, -0.1}};
 const Motion kOut{.translation = {0.0, 0.0, 0.1}};
 
 TEST(PassivityController, LeavesTheWrenchAloneWithoutADebt) {
-  PassivityController controller({.most_damping = 50.0});
+  PassivityController controller({.most_damping = 50.0}, kDelay);
   for (const double absorbed : {0.0, 1e-9, 1.0}) {
     EXPECT_EQ(controller.apply(absorbed, kPush, kIn).force, kPush.force);
     EXPECT_EQ(controller.damping(), 0.0);
   }
-  PassivityController off(PassivityController::Parameters{});
+  PassivityController off({}, kDelay);
   EXPECT_EQ(off.apply(-1.0, kPush, kIn).force, kPush.force);
 }
 
 /// Also where the square of the power is too small for a number.
 TEST(PassivityController, DampsNothingWithoutADebtHoweverSmallWrenchAndMotionAre) {
-  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod}, kDelay);
   for (const double force : {1e-150, 1e-3, 10.0}) {
     for (const double speed : {1e-200, 1e-50, 0.1}) {
       const Wrench F{{0.0, 0.0, force}, {0.0, 0.1 * force, 0.0}};
@@ -148,7 +149,7 @@ TEST(PassivityController, DampsNothingWithoutADebtHoweverSmallWrenchAndMotionAre
 /// By hand, for a period of 1 ms and a length of 0.1 m: 1 Nm counts as 10 N, 1 rad/s as 0.1 m/s. A debt of 1e-4 J is
 /// paid by 1 N at 0.1 m/s, and by 0.1 Nm at 1 rad/s.
 TEST(PassivityController, CountsWithTheStatedPeriodAndLengthUnlessToldOtherwise) {
-  PassivityController controller({.most_damping = 50.0});
+  PassivityController controller({.most_damping = 50.0}, kDelay);
   EXPECT_NEAR(controller.apply(-1e-4, kPush, kIn).force.z(), 11.0, 1e-12);
   EXPECT_NEAR(controller.damping(), 10.0, 1e-12);
   const Wrench out = controller.apply(-1e-4, {.torque = {0.0, 0.0, 1.0}}, {.rotation = {0.0, 0.0, -1.0}});
@@ -157,7 +158,7 @@ TEST(PassivityController, CountsWithTheStatedPeriodAndLengthUnlessToldOtherwise)
 }
 
 TEST(PassivityController, PaysTheDebtWithinAPeriodWhereItMay) {
-  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod}, kDelay);
   // by hand: 1e-4 J in 1 ms at 0.1 m/s are 1 N
   EXPECT_NEAR(controller.apply(-1e-4, kPush, kIn).force.z(), 11.0, 1e-12);
   EXPECT_NEAR(controller.damping(), 10.0, 1e-12);
@@ -168,7 +169,7 @@ TEST(PassivityController, PaysTheDebtWithinAPeriodWhereItMay) {
 }
 
 TEST(PassivityController, NeverTurnsAPushIntoAPull) {
-  PassivityController controller({.most_damping = 500.0, .period = kPeriod});
+  PassivityController controller({.most_damping = 500.0, .period = kPeriod}, kDelay);
   EXPECT_EQ(controller.apply(-1.0, kPush, kOut).force.z(), 0.0);
   EXPECT_TRUE(controller.apply(-1.0, {}, kOut).force.isZero(0.0));
 }
@@ -180,7 +181,7 @@ TEST(PassivityController, TakesNoMoreThanTheDebtAndTheLargestDamper) {
   constexpr double kMost = 40.0;
   test::Random random(4);
   for (int i = 0; i < 100000; ++i) {
-    PassivityController controller({.most_damping = kMost, .period = kPeriod, .rotation_length = kLength});
+    PassivityController controller({.most_damping = kMost, .period = kPeriod, .rotation_length = kLength}, kDelay);
     const double size = std::pow(10.0, random.between(-6.0, 2.0));
     const Wrench F{size * random.in_cube(1.0), size * random.in_cube(0.2)};
     const double speed = std::pow(10.0, random.between(-6.0, 1.0));
@@ -202,7 +203,7 @@ TEST(PassivityController, TakesNoMoreThanTheDebtAndTheLargestDamper) {
 }
 
 TEST(PassivityController, ForgetsASurplusOnceNothingIsRenderedButNotADebt) {
-  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod}, kDelay);
   constexpr double kSurplus = 0.1;
   for (int k = 1; k < PassivityController::kForget; ++k) controller.apply(kSurplus, {}, kIn);
   EXPECT_EQ(controller.apply(kSurplus - 0.01, kPush, kIn).force, kPush.force);  // too early: a wrench may still act
@@ -214,9 +215,23 @@ TEST(PassivityController, ForgetsASurplusOnceNothingIsRenderedButNotADebt) {
   EXPECT_EQ(controller.apply(0.0, kPush, kIn).force, kPush.force);
 }
 
+/// A wrench that was rendered before a pause may still act during it. The surplus lasts for as long as that.
+TEST(PassivityController, RemembersASurplusUntilNoWrenchActsAnyMore) {
+  for (const double delay : {0.0, 13.5, 14.0, 14.5, 20.0, 20.5, static_cast<double>(PassivityObserver::kMostDelay)}) {
+    const int periods = std::max(PassivityController::kForget, static_cast<int>(std::ceil(delay)) + 2);
+    for (const int pause : {periods - 1, periods}) {
+      PassivityController controller({.most_damping = 50.0, .period = kPeriod}, delay);
+      controller.apply(0.1, kPush, kIn);
+      for (int k = 0; k < pause; ++k) controller.apply(0.1, {}, kIn);
+      const Wrench after_pause = controller.apply(0.05, kPush, kIn);
+      EXPECT_EQ(after_pause.force == kPush.force, pause < periods) << delay << ", pause " << pause;
+    }
+  }
+}
+
 /// A surplus is what a wrench may still give back, as long as one is rendered.
 TEST(PassivityController, ForgetsNoSurplusWhileAWrenchIsRendered) {
-  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod}, kDelay);
   for (int k = 0; k < 3 * PassivityController::kForget; ++k) controller.apply(0.1, kPush, kIn);
   EXPECT_EQ(controller.apply(0.05, kPush, kIn).force, kPush.force);
   // with a rendered wrench the count begins at 0 again
@@ -228,7 +243,7 @@ TEST(PassivityController, ForgetsNoSurplusWhileAWrenchIsRendered) {
 
 TEST(PassivityController, IsAsANewOneAfterAReset) {
   const PassivityController::Parameters parameters{.most_damping = 50.0, .period = kPeriod};
-  PassivityController used(parameters), fresh(parameters);
+  PassivityController used(parameters, kDelay), fresh(parameters, kDelay);
   for (const double absorbed : {0.2, -1e-4}) {
     used.apply(absorbed, kPush, kIn);  // with damping and without
     used.reset();
@@ -248,7 +263,7 @@ TEST(PassivityController, IsAsANewOneAfterAReset) {
 }
 
 TEST(PassivityController, StaysFiniteAtTheEdgesOfNumbers) {
-  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod}, kDelay);
   for (const double force : {1e-200, 1e-160, 1e-30, 1e30}) {
     for (const double speed : {1e-200, 1e-160, 1e-30, 1e3}) {
       const Wrench out = controller.apply(-1.0, {.force = {0.0, force, 0.0}}, {.translation = {0.0, speed, 0.0}});

@@ -221,6 +221,37 @@ TEST_F(ControlCycleTest, TellsTheEnergyThatTheDelayGivesAndPaysItBack) {
   EXPECT_LT(given[1], 0.5 * given[0]);
 }
 
+/// Torques act 20 periods after they were sent. Those of a first contact act while the hand is outside again and goes
+/// down: they take energy. The hand touches the plate again after 19 periods, while they still act. When it goes up,
+/// the torques of the second contact give less than that surplus, so nothing is damped.
+TEST_F(ControlCycleTest, RemembersTheEnergyThatTorquesTakeAfterALongDelay) {
+  scene_.settings.damping = 0.0;
+  setup_.passivity = {50.0, CycleSetup().period, 0.16};
+  drives_.torque_delay = 20.0 * CycleSetup().period;
+  make();
+  run_to(Mode::kRunning);
+  struct Stretch {
+    int periods;
+    double height;  // of the tool over the contact at its end [m]
+  };
+  double height = 0.03;
+  double surplus = 0.0;
+  for (const auto& [periods, end] : std::vector<Stretch>{
+           {60, 0.001}, {6, -0.002}, {6, 0.001}, {6, 0.004}, {4, 0.004}, {10, -0.001}, {24, -0.001}, {4, -0.0004}}) {
+    const double begin = height;
+    for (int k = 1; k <= periods; ++k) {
+      height = begin + (end - begin) * k / periods;
+      drives_.reading.position = moved(Vector3(0.0, 0.0, height - 0.03));
+      step();
+      surplus = std::max(surplus, cycle_->record().absorbed);
+      const bool rounded = surplus < 1e-9;
+      EXPECT_TRUE(rounded || cycle_->record().injected_damping == 0.0) << height << ", period " << k;
+    }
+  }
+  EXPECT_GT(surplus, 5e-3) << "[J]";
+  EXPECT_NEAR(surplus - cycle_->record().absorbed, 2.0 * 0.6e-3, 1e-4) << "2 N over 0.6 mm are given back";
+}
+
 TEST_F(ControlCycleTest, EstimatesTheVelocityOverPeriodsThatWereSkipped) {
   make();
   run_to(Mode::kRunning);

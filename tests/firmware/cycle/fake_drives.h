@@ -20,7 +20,7 @@ class FakeDrives final : public hal::JointDrives {
     out = reading;
     out.enable_switch = reading.enable_switch && ++receives_ > kReleased;
   }
-  double delay() const noexcept override { return 1e-3; }
+  double delay() const noexcept override { return torque_delay; }
 
   bool send(const hal::JointCommand& command) noexcept override {
     sent = command;
@@ -51,6 +51,7 @@ class FakeDrives final : public hal::JointDrives {
   int sends = 0;
   bool fails_to_send = false;
   bool follows_torque = true;  ///< measures the torque that was sent
+  double torque_delay = 1e-3;  ///< from a position's sample to the torque [s]
 
  private:
   static constexpr int kReleased = 150;

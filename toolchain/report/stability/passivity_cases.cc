@@ -19,7 +19,7 @@ class Account {
   Account(double period, double delay_in_periods, double most_damping)
       : period_(period),
         observer_(delay_in_periods),
-        controller_({.most_damping = most_damping, .period = period, .rotation_length = 1.0}) {}
+        controller_({.most_damping = most_damping, .period = period, .rotation_length = 1.0}, delay_in_periods) {}
 
   /// Returns the force for the hand's position [m], in place of `law(x, before)` [N]. Call it once a period.
   template <class Law>
