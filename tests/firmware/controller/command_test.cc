@@ -336,6 +336,27 @@ TEST_F(ControllerCommandTest, CountsCyclesThatComputeForLongerThanThePlanSays) {
   EXPECT_FALSE(says("longer than loop.compute in 0\n")) << words_;
 }
 
+/// The summary of a run has the median of the computing times, too. Where it is above loop.compute, at least half of
+/// the cycles are counted, and at most half where it is below. Seven tenths of the last run's median tell a factor of
+/// two.
+TEST_F(ControllerCommandTest, CountsHalfOfTheCyclesWhereTheirMedianIsLoopCompute) {
+  double compute = 1e-6;
+  bool tells = false;
+  for (int round = 0; round < 6; ++round) {
+    write_controller(fmt::format("[loop]\ncompute = {}\n", compute));
+    ASSERT_EQ(run("c.toml --duration 0.5"), 0) << words_;
+    const double median = 1e-6 * number("\ncomputing: p50 ([0-9.]+) us");
+    const double half = 0.5 * number("\ncomputing: .* of ([0-9]+) cycles");
+    const double counted = number("longer than loop.compute in ([0-9]+)\n");
+    constexpr double kWidth = 1.1;  // a median is known up to 1/16 and 0.05 us
+    EXPECT_TRUE(!(median > kWidth * compute) || counted >= half) << compute << words_;
+    EXPECT_TRUE(!(kWidth * median < compute) || counted <= half) << compute << words_;
+    tells = tells || (median > kWidth * compute && kWidth * median < 2.0 * compute);
+    compute = std::max(1e-6, 0.7 * median);  // the least that is allowed
+  }
+  if (!tells) GTEST_SKIP() << "this machine is too busy: the median of a run is not that of the last one";
+}
+
 /// In virtual time a budget gives the same run each time; a cycle of 2 us lags, one of 100 us does not.
 TEST_F(ControllerCommandTest, KeepsToABudgetOfWork) {
   write_path();
