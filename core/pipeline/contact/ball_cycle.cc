@@ -83,11 +83,12 @@ bool project(const HalfSpaces& spaces, const Vector3& target, double tolerance, 
     feasible = set.add(worst);
   }
   nearest = set.z().head<3>();
-  for (int i = 0; i < std::min(set.size(), 3); ++i) {
-    if (!(set[i].multiplier > 0.0)) continue;
-    held.normal[static_cast<std::size_t>(held.count)] = set[i].gradient.head<3>();
-    held.space[static_cast<std::size_t>(held.count)] = set[i].tag;
-    held.multiplier[static_cast<std::size_t>(held.count++)] = set[i].multiplier;
+  held.count = std::min(set.size(), 3);
+  for (int i = 0; i < held.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    held.normal[k] = set[i].gradient.head<3>();
+    held.multiplier[k] = set[i].multiplier;
+    held.space[k] = set[i].tag;
   }
   return feasible;
 }
