@@ -189,6 +189,35 @@ void expect_no_motion_without_work() {
 TEST(ContactSubsteps, StoreNoMotionWithoutWork) { expect_no_motion_without_work<false>(); }
 TEST(ContactSubsteps, StoreNoMotionWithoutWorkWithFriction) { expect_no_motion_without_work<true>(); }
 
+/// The same for a box that has followed the device over the floor: it stays behind, and the stored motion is not the
+/// way to the device.
+template <bool kFriction>
+void expect_no_motion_without_work_after_a_free_cycle() {
+  const AnalyticField field(HalfSpace{Vector3::UnitZ(), 0.0}, kSubstepVoxel);
+  const SampledBody body = box_body(4);
+  SubstepRun<kFriction> run(field, body, pose_at({0.0, 0.0, 0.03}));
+  for (int cycle = 1; cycle <= 20; ++cycle) {
+    const bool has_work = cycle % 5 != 0;
+    run.parameters.work_budget = has_work ? WorkMeter::kUnlimited : 1;
+    const Pose before = run.state.H_WS;
+    const Pose device = pose_at({1e-4 * cycle, 0.0, 0.03});
+    ASSERT_EQ(run.step(device), Status::kOk);
+    EXPECT_EQ(run.report.out_of_work, !has_work) << cycle;
+    EXPECT_TRUE(run.state.H_WS == (has_work ? device : before)) << cycle;
+    const ConstrainedStep& last = run.memory().last_step;
+    EXPECT_EQ(last.follows, has_work) << cycle;
+    const Motion moved = get_motion(before.inverse() * run.state.H_WS);
+    EXPECT_LT((last.motion.translation - moved.translation).norm(), 1e-12) << cycle;
+    EXPECT_LT(last.motion.rotation.norm(), 1e-12) << cycle;
+  }
+}
+TEST(ContactSubsteps, StoreNoMotionWithoutWorkAfterAFreeCycle) {
+  expect_no_motion_without_work_after_a_free_cycle<false>();
+}
+TEST(ContactSubsteps, StoreNoMotionWithoutWorkAfterAFreeCycleWithFriction) {
+  expect_no_motion_without_work_after_a_free_cycle<true>();
+}
+
 /// A point falls onto a floor in one cycle, in any number of sub-steps: at first none finds the floor, then some do.
 /// The stored motion is the whole fall.
 TEST(ContactSubsteps, StoreTheWholeFallOfAPoint) {
