@@ -625,6 +625,34 @@ TEST(ContactSubsteps, CallWallsThatPushAgainstMorePointsThanRowsInfeasible) {
   }
 }
 
+/// Walls at both sides in x, closer than twice the margin to a body of 30 mm between them, over a floor whose ramp
+/// begins at y = 0 and rises by 45 degrees.
+struct SlotWithRamp {
+  double half_width = 0.015 + 0.5 * kSubstepMargin;
+  Vector3 ramp = Vector3(0.0, -1.0, 1.0).normalized();
+  double wall(const Vector3& p) const noexcept { return half_width - std::fabs(p.x()); }
+  double distance(const Vector3& p) const noexcept { return std::min({wall(p), p.z(), ramp.dot(p)}); }
+  Vector3 gradient(const Vector3& p) const noexcept {
+    if (wall(p) < std::min(p.z(), ramp.dot(p))) return {p.x() > 0.0 ? -1.0 : 1.0, 0.0, 0.0};
+    return p.z() < ramp.dot(p) ? Vector3::UnitZ() : ramp;
+  }
+};
+
+/// No motion regains the margins of both walls. A point on the floor is to slide onto the ramp, by less than a margin,
+/// which takes a second look. The motion that the ramp directs does not hide that the walls contradict each other.
+TEST(ContactSubsteps, CallWallsInfeasibleAfterASecondLookAtARamp) {
+  const AnalyticField field(SlotWithRamp{}, kSubstepVoxel);
+  const SampledBody body({{Vector3(0.015, 0.0, 0.01), Vector3(-0.015, 0.0, 0.01), Vector3::Zero()},
+                          {-Vector3::UnitX(), Vector3::UnitX(), -Vector3::UnitZ()}},
+                         Vector3::Constant(4e-4));
+  SubstepRun<> run(field, body, pose_at({0.0, -9e-6, kSubstepMargin}));
+  for (int cycle = 0; cycle < 5; ++cycle) {
+    ASSERT_EQ(run.step(pose_at({0.0, 4e-6, -1e-3})), Status::kOk);
+    EXPECT_NEAR(run.state.H_WS.translation.y(), kSubstepMargin * (1.0 - std::sqrt(2.0)), 1e-7) << "margin of the ramp";
+    EXPECT_EQ(run.report.outcome, Outcome::kInfeasible) << cycle;
+  }
+}
+
 /// A hollow ball about the origin.
 struct HollowBall {
   static constexpr double kRadius = 0.1;
