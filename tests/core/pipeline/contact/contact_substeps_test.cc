@@ -776,7 +776,7 @@ TEST(ContactSubsteps, KnowAStartThatOnlyAFeaturePointPenetrates) {
 
 /// Two feature points start inside the block, under its top and over its bottom, so that no motion meets their rows. A
 /// third one lies inside its side: the way out leads past that one, by the margin, and leaves the other two where they
-/// cancel.
+/// cancel. A budget of work that is larger than the work of these cycles changes nothing.
 TEST(ContactSubsteps, LeaveAnOverlapOfFeaturePointsWhereTheyDoNotCancel) {
   constexpr double kDepth = 1e-4;
   const AnalyticField nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kSubstepVoxel);
@@ -793,17 +793,21 @@ TEST(ContactSubsteps, LeaveAnOverlapOfFeaturePointsWhereTheyDoNotCancel) {
   const Pointshell shell = body.pointshell();
   const ContactScene<AnalyticField, AnalyticField> scene(nothing, shell,
                                                          {&block, still.pointshell(), Vector3::Zero(), 0.05}, q);
-  const auto memory = std::make_unique<ContactMemory>();
-  memory->search.start(scene, {});
-  ProxyState state;
-  CycleReport report;
-  CycleInput input;
-  for (int cycle = 0; cycle < 60; ++cycle) {
-    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
-    EXPECT_EQ(report.outcome, Outcome::kStartInside) << cycle;
+  for (const std::uint64_t budget : {WorkMeter::kUnlimited, std::uint64_t{1000000}}) {
+    q.work_budget = budget;
+    const auto memory = std::make_unique<ContactMemory>();
+    memory->search.start(scene, {});
+    ProxyState state;
+    CycleReport report;
+    CycleInput input;
+    for (int cycle = 0; cycle < 60; ++cycle) {
+      ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
+      EXPECT_EQ(report.outcome, Outcome::kStartInside) << cycle;
+      EXPECT_FALSE(report.out_of_work) << cycle << ": " << report.work;
+    }
+    EXPECT_NEAR(state.H_WS.translation.x(), -kDepth - kSubstepMargin, 0.1 * kSubstepMargin);
+    EXPECT_NEAR(state.H_WS.translation.z(), 0.0, 0.1 * kSubstepMargin);
   }
-  EXPECT_NEAR(state.H_WS.translation.x(), -kDepth - kSubstepMargin, 0.1 * kSubstepMargin);
-  EXPECT_NEAR(state.H_WS.translation.z(), 0.0, 0.1 * kSubstepMargin);
 }
 
 /// The memory of a cycle does not outlive a reset.
