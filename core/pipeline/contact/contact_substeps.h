@@ -111,7 +111,7 @@ class ContactSubsteps {
     memory_.first_search_ended |= has_all_points_;
     if (has_all_points_) find_edges();
     has_surroundings_ = has_all_points_ && !work_.is_spent();
-    if ((around_.dropped > 0 || had_all_points_) && !work_.is_spent()) select_again();
+    if ((around_.lacks_rows || had_all_points_) && !work_.is_spent()) select_again();
     end(times_, &StepTimes::step1_ns);
     result_.smallest = around_.smallest;
     result_.dropped = around_.unlisted + around_.unseen;
@@ -313,7 +313,7 @@ class ContactSubsteps {
 
   /// If there are more near points than rows, adds those that the motion would violate, and computes the motion again.
   void add_violated_rows() noexcept {
-    if (around_.dropped == 0) return;
+    if (!around_.lacks_rows) return;
     while (!work_.is_spent()) {
       const std::uint32_t begin = rows_.count;
       work_.add(Work::kScan, 2 * (memory_.workspace.samples.count + memory_.workspace.features.count));
@@ -606,7 +606,7 @@ class ContactSubsteps {
       for (std::uint32_t k = 0; k < near.count; ++k) {
         around_.smallest = std::min(around_.smallest, near.gap[k].distance);
       }
-      around_.dropped += push_edges(H0_, lengths_, near, rows_);
+      around_.lacks_rows |= push_edges(H0_, lengths_, near, rows_) > 0;
     }
   }
 
@@ -674,18 +674,19 @@ class ContactSubsteps {
     NearPoints& samples = memory_.workspace.samples;
     NearPoints& features = memory_.workspace.features;
     const std::uint32_t rows = rows_.count;
-    const std::uint32_t dropped = around_.dropped;
+    bool lacks_rows = false;
     bool found = false;
     if (extensions_left_ == 0) return false;
     if (!freedom.samples && samples.is_bound_only(at_sample_.near)) {
-      found = look_up_bounded<SampleDirection>(*scene_.field, H0_, H1_, lengths_, samples, rows_, around_, work_);
+      found = look_up_bounded<SampleDirection>(*scene_.field, H0_, H1_, lengths_, samples, rows_, lacks_rows, work_);
     }
     if (scene_.has_features() && !freedom.features && features.is_bound_only(at_feature_.near)) {
       found |= look_up_bounded<FeatureDirection>(*scene_.features.map, H0_features_, H1_features_, lengths_, features,
-                                                 rows_, around_, work_);
+                                                 rows_, lacks_rows, work_);
     }
-    if (!found || (around_.dropped == dropped && !violates_rows(rows))) return false;
-    memory_.kept.around.dropped += around_.dropped - dropped;
+    if (!found || !(lacks_rows || violates_rows(rows))) return false;
+    around_.lacks_rows |= lacks_rows;
+    memory_.kept.around.lacks_rows |= lacks_rows;
     --extensions_left_;
     if (share_.looks_left() == kMostSecondLooks) first_look_row_ = rows_.count;
     const bool infeasible = step_.infeasible;  // then the rows have lost their required gains

@@ -69,7 +69,7 @@ bool find_near(NearSearch& search, const Direction& direction, const Field& fiel
         });
         for_each_bit(found & ~batch.known,
                      [&](std::uint32_t k) noexcept { around.swallowed |= batch.distance[k] < 0.0; });
-        around.dropped += push_rows<Direction>(batch, index.data(), stored, R, lengths, rows);
+        around.lacks_rows |= push_rows<Direction>(batch, index.data(), stored, R, lengths, rows) > 0;
       },
       [&](const PointBatch& batch, const auto& index, std::uint64_t bounded) noexcept {
         const std::uint64_t stored = near.push_bounds(index.data(), batch, bounded);
@@ -89,11 +89,12 @@ bool find_near(NearSearch& search, const Direction& direction, const Field& fiel
 }
 
 /// Looks up the listed points exactly of which only a bound is known, and whose ball the motion from H0 to H1 leaves:
-/// poses of the shell in the field's frame. Appends their rows while there is room. Returns whether there was one. Adds
-/// to `rows`, `around` and `work`. Cost: a look-up for each of them. Real-time safe.
+/// poses of the shell in the field's frame. Appends their rows while there is room, and sets `lacks_rows` once there is
+/// none. Returns whether there was such a point. Adds to `rows` and `work`. Cost: a look-up for each of them. Real-time
+/// safe.
 template <class Direction, DistanceField Field>
 bool look_up_bounded(const Field& field, const Pose& H0, const Pose& H1, const ContactLengths& lengths,
-                     NearPoints& near, ContactRows& rows, Surroundings& around, WorkMeter& work) noexcept {
+                     NearPoints& near, ContactRows& rows, bool& lacks_rows, WorkMeter& work) noexcept {
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Matrix3 turn = H1.rotation.toRotationMatrix() - R0;
   const Vector3 shift = H1.translation - H0.translation;
@@ -119,7 +120,7 @@ bool look_up_bounded(const Field& field, const Pose& H0, const Pose& H1, const C
     work.add(Work::kNear, batch.count);
     field.samples(H0, batch);
     for (std::uint32_t k = 0; k < batch.count; ++k) near.set(place[k], batch, k);
-    around.dropped += push_rows<Direction>(batch, number.data(), first_bits(batch.count), R0, lengths, rows);
+    lacks_rows |= push_rows<Direction>(batch, number.data(), first_bits(batch.count), R0, lengths, rows) > 0;
     found = true;
   }
   return found;

@@ -13,7 +13,7 @@ struct Surroundings {
   double free_displacement;  ///< up to this displacement all points outside of the lists of near points are free [m]
   double smallest = std::numeric_limits<double>::infinity();  ///< smallest stored distance of the near points [m]
   bool swallowed = false;                                     ///< a point lies inside, where the field has no gradient
-  std::uint32_t dropped = 0;                                  ///< listed near points that found no row
+  bool lacks_rows = false;                                    ///< a listed near point, or an edge pair, found no row
   std::uint32_t unlisted = 0;                                 ///< near points that found no place in the lists
   std::uint32_t unseen = 0;                                   ///< points that the point budget left without a look-up
 };

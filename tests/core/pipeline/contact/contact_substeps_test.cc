@@ -928,6 +928,54 @@ TEST(ContactSubsteps, ChooseOnceAmongThePointsOfASearchThatTakesSeveralCycles) {
   }
 }
 
+/// 2040 points lie at the bottom of a hollow ball, and 64 below its top, to which the device goes. Only bounds of these
+/// are known until the first motion meets them; then eight of them get the last rows. The budget of work ends the cycle
+/// before a motion is certified. The next cycle goes on with the lists and adds rows for the others, too: one sub-step
+/// ends below the top, at the margin.
+TEST(ContactSubsteps, AddRowsForBoundedPointsInTheCycleThatGoesOn) {
+  constexpr int kTop = 64;
+  constexpr int kAll = kTop + 2040;
+  SurfaceSamples samples;
+  for (int k = 0; k < kAll; ++k) {
+    const double z = k < kTop ? 1.0 - 0.5 * (k + 0.5) / kTop : -1.0 + 1e-4 * (k - kTop) / kAll;
+    const double aside = std::sqrt(1.0 - z * z);
+    const double gap = k < kTop ? 1e-3 : 5e-5 + 3e-5 * k / kAll;
+    const Vector3 out(aside * std::cos(2.4 * k), aside * std::sin(2.4 * k), z);
+    samples.points.push_back((HollowBall::kRadius - gap) * out);
+    samples.normals.push_back(-out);
+  }
+  const AnalyticField field(HollowBall{}, kSubstepVoxel);
+  const SampledBody body(samples, Vector3::Constant(4e-3));
+  const Pointshell shell = body.pointshell();
+  for (const auto& [x, y] : {std::pair(2, -5), {2, -4}, {4, 4}}) {
+    Parameters q;
+    q.mass = body.mass;
+    q.voxel_size = kSubstepVoxel;
+    q.margin = kSubstepMargin;
+    const ContactScene<AnalyticField, NoBodyField> scene(field, shell, {}, q);
+    const auto memory = std::make_unique<ContactMemory>();
+    std::vector<std::uint32_t> words(ContactSearch::memory(shell, {}));
+    memory->search.start(scene, words);
+    memory->last_step.motion.translation = Vector3::UnitX();  // long: the longest search radius
+    ProxyState state;
+    state.started = true;
+    CycleReport report;
+    CycleInput input;
+    input.H_WD = pose_at({4e-4 * x, 4e-4 * y, 2e-3});
+    q.work_budget = 1000000;
+    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
+    ASSERT_TRUE(report.out_of_work && memory->kept.goes_on) << x << ' ' << y;
+    ASSERT_EQ(memory->workspace.samples.bounded, 64u) << x << ' ' << y;
+    ASSERT_TRUE(memory->workspace.rows.full()) << x << ' ' << y;
+    EXPECT_GT(report.dropped, 0u) << "there is no room for other rows";
+    q.work_budget = WorkMeter::kUnlimited;
+    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
+    EXPECT_EQ(report.substeps, 1u) << x << ' ' << y;
+    EXPECT_GT(state.H_WS.translation.z(), 5e-4) << x << ' ' << y;
+    EXPECT_GT(smallest_distance(field, shell, state.H_WS), 0.99 * kSubstepMargin) << x << ' ' << y;
+  }
+}
+
 /// The search radius grows if the first sub-step takes less than half of the budget, however much the others take.
 TEST(ContactSubsteps, LearnTheSearchRadiusFromTheFirstSubstep) {
   const AnalyticField field(HalfSpace{Vector3::UnitZ(), 0.0}, kSubstepVoxel);
