@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "sim/index.h"
 #include "sim/virtual_clock.h"
@@ -18,7 +19,10 @@ CanNodes::CanNodes(Plant& plant, const hal::BusLayout& layout, std::span<const J
       joint_count_(layout.joint_count) {
   assert(plant.now_ns() == 0 && plant.joint_count() == joint_count_);
   assert(static_cast<int>(joints.size()) >= joint_count_ && period_ns_ > 0);
-  for (int i = 0; i < joint_count_; ++i) drives_[at(i)].emplace(layout.drives[at(i)], joints[at(i)], layout.fd);
+  for (int i = 0; i < joint_count_; ++i) {
+    drives_[at(i)].emplace(layout.drives[at(i)], joints[at(i)], layout.fd);
+    moved_[at(i)] = i;
+  }
   if (layout.panel.bus >= 0) panel_.emplace(layout.panel, layout.fd);
   for (int i = 0; i < node_count(); ++i) {
     node(i).set_answer(std::llround(1e9 * layout.answer));
@@ -39,6 +43,21 @@ const CanopenNode& CanNodes::node(int i) const noexcept {
 }
 
 int CanNodes::bus_of(int i) const noexcept { return i == joint_count_ ? layout_.panel.bus : layout_.drives[at(i)].bus; }
+
+void CanNodes::swap_drives(int i, int j) noexcept {
+  const auto identity = [this](int joint) {
+    hal::DriveIdentity all;
+    for (const hal::IdentityField& field : hal::kIdentityFields) {
+      all.*field.value = drive(joint).objects().value(hal::canopen::kIdentity, field.subindex);
+    }
+    return all;
+  };
+  const hal::DriveIdentity of_i = identity(i);
+  drive(i).set_identity(identity(j));
+  drive(j).set_identity(of_i);
+  std::swap(moved_[at(i)], moved_[at(j)]);
+  update_drives();
+}
 
 void CanNodes::begin_cycle() noexcept {
   const auto fault = [this](FaultKind kind, int joint) { return find_fault(script_.faults, kind, joint, cycle()); };
@@ -71,7 +90,8 @@ void CanNodes::update_panel() noexcept {
 
 void CanNodes::update_drives() noexcept {
   for (int i = 0; i < joint_count_; ++i) {
-    drives_[at(i)]->update(plant_.now_ns(), plant_.positions()[i], plant_.velocities()[i]);
+    const int joint = moved_[at(i)];
+    drives_[at(i)]->update(plant_.now_ns(), plant_.positions()[joint], plant_.velocities()[joint]);
   }
 }
 
@@ -91,8 +111,8 @@ void CanNodes::settle() noexcept {
     update_drives();
     JointLoad load;
     for (int i = 0; i < joint_count_; ++i) {
-      load.motor[i] = drives_[at(i)]->motor_torque();
-      load.brake[i] = drives_[at(i)]->brake_torque();
+      load.motor[moved_[at(i)]] = drives_[at(i)]->motor_torque();
+      load.brake[moved_[at(i)]] = drives_[at(i)]->brake_torque();
     }
     plant_.step(begin_ns + (now_ns_ - begin_ns) * step / steps - plant_.now_ns(), load);
   }

@@ -58,6 +58,11 @@ class CanNodes {
   Cia402Slave& drive(int joint) noexcept { return *drives_[static_cast<std::size_t>(joint)]; }
   const Plant& plant() const noexcept { return plant_; }
 
+  /// Exchanges the drives of two joints before their first frame: each has the node number of the other one, is known
+  /// by its own identity, and moves its own joint. So the drive that the controller knows as that of joint i moves
+  /// joint j, and the other way round.
+  void swap_drives(int i, int j) noexcept;
+
   void press_emergency_stop(bool pressed) noexcept { emergency_stop_ = pressed; }
   void hold_enable_switch(bool held) noexcept { enable_switch_ = held; }
   void open_clutch(bool open) noexcept { clutch_ = open; }
@@ -74,6 +79,7 @@ class CanNodes {
   int joint_count_;
   std::int64_t now_ns_ = 0;
   std::array<std::optional<Cia402Slave>, kMaxJoints> drives_;
+  std::array<int, kMaxJoints> moved_{};  // joint of the plant that a drive moves
   std::optional<Cia401Panel> panel_;
   bool emergency_stop_ = false;
   bool enable_switch_ = true;

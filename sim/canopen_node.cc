@@ -1,6 +1,7 @@
 #include "sim/canopen_node.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "sim/virtual_clock.h"
 
@@ -103,6 +104,13 @@ CanopenNode::CanopenNode(int number, std::uint32_t device_type, std::uint8_t tpd
   for (const Tpdo& tpdo : tpdos_) {
     add(tpdo.mapping, 0, kU8, kReadWrite, 0);
     for (std::uint8_t i = 1; i <= kMaxMapped; ++i) add(tpdo.mapping, i, kU32, kReadWrite, 0);
+  }
+}
+
+void CanopenNode::set_identity(const hal::DriveIdentity& identity) noexcept {
+  for (const hal::IdentityField& field : hal::kIdentityFields) {
+    const std::optional<std::uint32_t>& value = identity.*field.value;
+    if (value) objects_.set_initial(kIdentity, field.subindex, *value);
   }
 }
 

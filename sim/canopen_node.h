@@ -5,6 +5,7 @@
 
 #include "hal/can_frame.h"
 #include "hal/canopen/object_numbers.h"
+#include "hal/cia402/drive_identity.h"
 #include "sim/object_dictionary.h"
 
 namespace godobject::sim {
@@ -79,6 +80,9 @@ class CanopenNode {
   bool is_operational() const noexcept { return is_up() && nmt_ == hal::canopen::kNmtOperational; }
   ObjectDictionary& objects() noexcept { return objects_; }
   const ObjectDictionary& objects() const noexcept { return objects_; }
+
+  /// Sets the given fields of the identity, 1018; they stay over a reset.
+  void set_identity(const hal::DriveIdentity& identity) noexcept;
 
   /// Sends an emergency message and sets 1001 to `error_register`.
   void send_emergency(std::uint16_t code, std::uint8_t error_register) noexcept;

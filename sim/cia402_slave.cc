@@ -44,6 +44,7 @@ Cia402Slave::Cia402Slave(const hal::DriveConfig& config, const JointHardwarePara
   using enum ObjectAccess;
   const double torque_unit = 1e-3 * config.gear * config.rated_torque;  // torque of a permille [Nm]
   const double most = std::min(joint.torque_limit / torque_unit, 65535.0);
+  set_identity(config.identity);
   objects().set_initial(kRpdo1Mapping, 0, 1);
   objects().set_initial(kRpdo1Mapping, 1, 0x6040'0010);
   objects().set_initial(kTpdo1Mapping, 0, 1);

@@ -40,7 +40,8 @@ inline constexpr std::uint16_t kTripObject = 0x2000;
 /// fault, 2 disable voltage, 3 quick stop. The command deadline is that of the RPDO, 1400:5.
 class Cia402Slave final : public CanopenNode {
  public:
-  /// Steps of encoder and torque are those of `config`; all other parameters those of `joint`.
+  /// Steps of encoder and torque and the given fields of the identity are those of `config`; all other parameters those
+  /// of `joint`.
   Cia402Slave(const hal::DriveConfig& config, const JointHardwareParameters& joint, bool fd) noexcept;
 
   /// Advances the states to `now_ns` and computes the torque from then on. Position and velocity are the joint's [rad,

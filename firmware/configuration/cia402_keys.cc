@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -42,6 +43,29 @@ void require_exact_period(const TomlTable& table, double period) {
   table.complain("period", fmt::format("= {:g} cannot be told to the drives: 60C2 holds whole numbers up to 255 of 1, "
                                        "0.1, 0.01 or 0.001 ms; for instance 0.001, 0.0005 or 0.00025",
                                        period));
+}
+
+hal::DriveIdentity read_identity(const TomlTable& table) {
+  constexpr TomlTable::Range kU32{0.0, 4'294'967'295.0};
+  table.allow({"vendor", "product", "revision", "serial"});
+  hal::DriveIdentity identity;
+  for (const hal::IdentityField& field : hal::kIdentityFields) {
+    if (table.has(field.name)) identity.*field.value = static_cast<std::uint32_t>(table.whole_number(field.name, kU32));
+  }
+  return identity;
+}
+
+/// Refuses a serial number that another joint's drive has: two drives of a product never share it.
+void check_serial(const TomlTable& joint, const hal::BusLayout& bus, std::size_t index) {
+  const hal::DriveIdentity& own = bus.drives[index].identity;
+  for (std::size_t j = 0; own.serial && j < index; ++j) {
+    const hal::DriveIdentity& other = bus.drives[j].identity;
+    if (!other.serial || !hal::may_be_same(own, other)) continue;
+    joint.inner("identity")
+        .complain("serial", fmt::format("= {} is also joint {}'s; read the serial numbers of both "
+                                        "drives with godobject-controller commission",
+                                        *own.serial, j + 1));
+  }
 }
 
 /// Refuses a node number that another node on the same bus has.
@@ -105,6 +129,7 @@ hal::DriveConfig read_drive(const TomlTable& table, const ArmJoint& joint) {
   drive.sign = table.number("sign", {-1.0, 1.0});
   if (std::fabs(drive.sign) != 1.0) table.complain("sign", "must be 1 or -1");
   drive.zero = table.number("zero", {-4.0 * std::numbers::pi, 4.0 * std::numbers::pi});
+  drive.identity = read_identity(table.inner("identity"));
   require_unambiguous(table, joint, drive);
   // 6071 and 6077 are 16 bit numbers of permille of the rated torque: up to 32 times it
   const double share = joint.torque / (drive.gear * drive.rated_torque);
@@ -127,7 +152,10 @@ void finish_buses(const TomlTable& table, const std::vector<TomlTable>& joints, 
     if (!used)
       table.complain("panel_bus", fmt::format("or a joint's bus is wrong: bus {} has no node; count buses from 0", b));
   }
-  for (std::size_t i = 0; i < joints.size(); ++i) check_nodes(joints[i], bus, i);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    check_nodes(joints[i], bus, i);
+    check_serial(joints[i], bus, i);
+  }
 }
 
 }  // namespace godobject::firmware

@@ -72,7 +72,8 @@ void read_joint(const TomlTable& table, std::size_t index, Device& device) {
                "gear",
                "rated_torque",
                "sign",
-               "zero"});
+               "zero",
+               "identity"});
   ArmJoint& joint = device.model.joints[index];
   joint.a = table.number("a", kLength);
   joint.alpha = table.number("alpha", kAngle);

@@ -24,7 +24,8 @@ const char* const kCommissionFooter = R"(Examples:
 Starts the drives without giving them power. Sets each drive to no mode and back: its TPDO2 must show both changes at once. Then
 omits the torque frames (RPDO) of one joint after the other: the drive must report by emergency message 8250, or by a fault, that
 its deadline has expired. Prints one line a joint: identity of the drive, sign and zero of the device file and the position that
-follows from them, and the observed reaction.
+follows from them, and the observed reaction. Then it prints the identities as lines for the device file. With them each start
+compares vendor, product, revision and serial number (object 1018), so that two swapped drives get no power.
 
 A drive that watches its deadline in the state operation enabled only shows no reaction here. firmware/README.md describes the
 test for such a drive.
@@ -70,6 +71,10 @@ void CommissionCommand::run() const {
   }
   link->stop();
   fmt::print("{}", report.table);
+  if (!report.keys.empty()) {
+    fmt::print("\nThe drives tell these identities. Paste each line below the [[joint]] of the device file:\n{}",
+               report.keys);
+  }
   if (!report.objection.empty()) throw Failure(ExitCode::kUnavailable, report.objection);
 }
 

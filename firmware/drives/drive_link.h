@@ -16,6 +16,7 @@ class SimulatedArm;
 /// The result of `DriveLink::commission`.
 struct CommissioningReport {
   std::string table;      ///< one line a joint, for the user; each ends with a line feed
+  std::string keys;       ///< keys that the drives themselves tell, to paste into the device file; empty: none
   std::string objection;  ///< the joints that failed and what to do, without a line feed; empty: all passed
 };
 

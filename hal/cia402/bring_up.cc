@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "hal/canopen/network.h"
 #include "hal/canopen/sdo.h"
@@ -40,7 +41,7 @@ class BringUp {
       : layout_(layout), buses_(buses), clock_(clock), tap_(tap), end_(end), stations_(layout) {}
 
   BringUpResult run() noexcept {
-    if (listen() && boot() && set_up_all() && start_all()) result_ = BringUpResult();
+    if (listen() && boot() && identify_all() && set_up_all() && start_all()) result_ = BringUpResult();
     result_.began = began_;
     return result_;
   }
@@ -54,6 +55,10 @@ class BringUp {
 
   bool listen() noexcept;
   bool boot() noexcept;
+  bool identify_all() noexcept;
+  bool identify(int joint) noexcept;
+  bool compare_identity(int joint) noexcept;
+  int joint_of_drive(const DriveIdentity& wanted) const noexcept;
   bool set_up_all() noexcept;
   bool set_up(int station) noexcept;
   bool start_all() noexcept;
@@ -83,6 +88,7 @@ class BringUp {
   bool absent_{};  // the station lacks the object of the last step
   bool answered_{};
   SdoResponse response_;
+  std::array<DriveIdentity, kMaxJoints> identities_{};  // of the drives that answer, by joint
   BringUpResult result_;
 };
 
@@ -281,6 +287,74 @@ bool BringUp::set_up(int station) noexcept {
   return done;
 }
 
+/// Reads the identity of a joint's drive. A field that the drive lacks, or does not give, stays empty.
+bool BringUp::identify(int joint) noexcept {
+  constexpr std::uint32_t kAny = 0;  // mask
+  const DriveIdentity& expected = layout_.drives[static_cast<std::size_t>(joint)].identity;
+  for (const IdentityField& field : kIdentityFields) {
+    const ParameterStep step{Kind::kExpectIfThere, kIdentity, field.subindex, 4, 0, kAny};
+    const bool done = do_step(joint, step);
+    const bool given = done && !absent_;
+    if (given) identities_[static_cast<std::size_t>(joint)].*field.value = response_.value;
+    const std::optional<std::uint32_t>& wanted = expected.*field.value;
+    if (given || (done && !wanted)) continue;
+    if (done) {
+      result_.expected = *wanted;
+      return fail_at(BringUpStatus::kNoIdentity, joint);
+    }
+    // a drive that answers, but not with a number of four bytes: nobody has asked for it
+    const bool refused = result_.status == BringUpStatus::kRefused || result_.status == BringUpStatus::kWrongSize;
+    if (wanted || !refused) return false;
+    result_ = BringUpResult();
+  }
+  step_ = nullptr;
+  return true;
+}
+
+/// Returns the joint whose drive has the serial number and all other fields of `wanted`; -1: none.
+int BringUp::joint_of_drive(const DriveIdentity& wanted) const noexcept {
+  for (int i = 0; wanted.serial && i < layout_.joint_count; ++i) {
+    const DriveIdentity& seen = identities_[static_cast<std::size_t>(i)];
+    if (seen.serial && may_be_same(seen, wanted)) return i;
+  }
+  return -1;
+}
+
+/// Compares the identity of a joint's drive, once those of all drives are known.
+bool BringUp::compare_identity(int joint) noexcept {
+  const DriveIdentity& expected = layout_.drives[static_cast<std::size_t>(joint)].identity;
+  const DriveIdentity& seen = identities_[static_cast<std::size_t>(joint)];
+  if (may_be_same(expected, seen)) return true;
+  const int other = joint_of_drive(expected);
+  const auto differs = [&](const IdentityField& field) {
+    return expected.*field.value && expected.*field.value != seen.*field.value;
+  };
+  // another product has another serial number, too: the first field tells more. A swap shows in the serial number
+  const IdentityField& first = *std::ranges::find_if(kIdentityFields, differs);
+  const IdentityField& shown = other >= 0 && differs(kIdentityFields.back()) ? kIdentityFields.back() : first;
+  result_ = BringUpResult();
+  result_.index = kIdentity;
+  result_.subindex = shown.subindex;
+  result_.expected = *(expected.*shown.value);
+  result_.found = *(seen.*shown.value);
+  result_.other_joint = other;
+  if (other < 0) return fail_at(BringUpStatus::kWrongDrive, joint);
+  const DriveIdentity& of_other = layout_.drives[static_cast<std::size_t>(other)].identity;
+  const bool swapped = of_other.serial && joint_of_drive(of_other) == joint;
+  return fail_at(swapped ? BringUpStatus::kDrivesSwapped : BringUpStatus::kDriveElsewhere, joint);
+}
+
+/// Compares nothing before all drives have answered: only then a swap can be told from a wrong drive.
+bool BringUp::identify_all() noexcept {
+  for (int i = 0; i < layout_.joint_count; ++i) {
+    if (!identify(i)) return false;
+  }
+  for (int i = 0; i < layout_.joint_count; ++i) {
+    if (!compare_identity(i)) return false;
+  }
+  return true;
+}
+
 bool BringUp::set_up_all() noexcept {
   for (int i = 0; i < kMaxStations; ++i) {
     if (stations_.has(i) && !set_up(i)) return false;
@@ -339,6 +413,17 @@ const char* describe(BringUpStatus status) noexcept {
     case BringUpStatus::kNotOperational: return "did not become operational; read its own error display";
     case BringUpStatus::kModeNotTold:
       return "does not send its mode by TPDO2, type 255 with an event timer; this drive cannot be used";
+    case BringUpStatus::kWrongDrive:
+      return "is not the drive that the device file names; connect that drive, or correct identity in the device file";
+    case BringUpStatus::kDriveElsewhere:
+      return "is not the drive that the device file names; that drive answers as another joint's; exchange the drives, "
+             "their cables or their node numbers, or correct identity in the device file";
+    case BringUpStatus::kDrivesSwapped:
+      return "the drives of two joints are swapped, or their cables or node numbers; swap them back, or correct "
+             "identity "
+             "in the device file";
+    case BringUpStatus::kNoIdentity:
+      return "does not have a part of its identity that the device file names; delete that key of identity";
   }
   return "unknown status";
 }

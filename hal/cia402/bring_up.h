@@ -27,6 +27,10 @@ enum class [[nodiscard]] BringUpStatus : std::uint8_t{
     kNotOperational,  ///< a node did not become operational
     kEnded,           ///< the start was asked to end
     kModeNotTold,     ///< a drive is operational, but does not send its mode by TPDO2
+    kWrongDrive,      ///< a field of the identity is `found` in place of `expected`
+    kDriveElsewhere,  ///< as kWrongDrive, and the expected drive answers as that of joint `other_joint`
+    kDrivesSwapped,   ///< as kDriveElsewhere, and that joint's expected drive answers here
+    kNoIdentity,      ///< a drive lacks a field of the identity that the layout gives: `expected`
 };
 
 /// Result of the start of all nodes. On failure: the first cause with its bus and, as far as they apply, node, joint
@@ -42,7 +46,8 @@ struct BringUpResult {
   std::uint32_t found = 0;
   double ratio_expected = 0.0;
   double ratio_found = 0.0;
-  bool began = false;  ///< a frame was sent
+  bool began = false;    ///< a frame was sent
+  int other_joint = -1;  ///< joint at which the expected drive answers; -1: at none
 };
 
 /// The status as one clause with the cure, without the numbers. Never null.
@@ -51,10 +56,11 @@ const char* describe(BringUpStatus status) noexcept;
 /// Starts all drives and the panel. Sends no torque and enables no drive.
 ///
 /// Steps: listen for 100 ms and refuse a second master; reset communication; wait up to `boot_timeout` for the boot-up
-/// of each node; identify, set up and read back each node by SDO (cia402/parameters.h); start the nodes; wait until
-/// each is operational and each drive has sent its mode by TPDO2. This takes 0.15 s plus 0.09 s a node if nodes answer
-/// within a millisecond. Encoder resolution (608F) and gear (6091) of drives that have them must equal the layout's
-/// `counts` and `gear`; 6091 may be 1, for a gear that the drive does not know of.
+/// of each node; read the identities of all drives (1018) and compare each field that the layout gives; check, set up
+/// and read back each node by SDO (cia402/parameters.h); start the nodes; wait until each is operational and each drive
+/// has sent its mode by TPDO2. Nothing is written to a drive before all identities are right. This takes 0.15 s plus
+/// 0.1 s a node if nodes answer within a millisecond. Encoder resolution (608F) and gear (6091) of drives that have
+/// them must equal the layout's `counts` and `gear`; 6091 may be 1, for a gear that the drive does not know of.
 ///
 /// `buses`: one for each bus of the layout. `tap`: may be null. `end`: the start ends within a millisecond after it
 /// became true; may be null. Sleeps in steps of a millisecond. Does not allocate or throw.

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/device/joint_vector.h"
+#include "hal/cia402/drive_identity.h"
 
 namespace godobject::hal {
 
@@ -22,6 +23,7 @@ struct DriveConfig {
   double torque_limit = 0.0;  ///< largest commanded torque of the joint [Nm]
   double sign = 1.0;          ///< -1: the motor turns against the joint's direction
   double zero = 0.0;          ///< position of the joint where 6064 is 0 [rad]
+  DriveIdentity identity{};   ///< expected of the drive; a start compares each field that is given
 };
 
 /// The operator's panel: a CiA 401 input module that answers each SYNC with 6000:1, see object_numbers.h. Cycles

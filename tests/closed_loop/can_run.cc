@@ -73,6 +73,9 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
   layout = at_period(options.period, layout);
   layout.drives[1].zero = options.zero;
   layout.boot_timeout = 1.0;
+  for (hal::DriveConfig& drive : layout.drives) {
+    if (!options.names_drives) drive.identity = {};
+  }
   if (options.quiet) {
     layout.drive_heartbeat = layout.mode_refresh = 3.0;
     layout.heartbeat_timeout = 7.0;

@@ -55,6 +55,7 @@ class CanRun {
     double stiffness = 2000.0;  ///< of the wall [N/m]
     double zero = 0.0;          ///< position of joint 2 where its counter is 0 [rad]
     double hold_from = 1.04;    ///< the enable switch is held from this time on [s]
+    bool names_drives = true;   ///< the layout names the identities of the drives, as the device file does
     bool quiet = false;         ///< for 3 s from the first heartbeat on, only SYNC and PDOs are on the wires
     struct Flood {
       int bus = 0;

@@ -39,6 +39,12 @@ std::vector<TomlTable> TomlTable::each(const toml::table& root, const std::strin
   return tables;
 }
 
+TomlTable TomlTable::inner(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (node != nullptr && !node->is_table()) complain(key, fmt::format("must be a table: write {} = {{ ... }}", key));
+  return TomlTable(node == nullptr ? nullptr : node->as_table(), fmt::format("{}.{}", name_, key), file_);
+}
+
 void TomlTable::allow(std::initializer_list<std::string_view> keys) const {
   if (table_ == nullptr) return;
   for (const auto& [key, node] : *table_) {

@@ -38,6 +38,9 @@ class TomlTable {
     return TomlTable(&root, "", std::move(file));
   }
 
+  /// Returns the table at a key: KEY = { ... }. If it is absent, the table is empty.
+  TomlTable inner(std::string_view key) const;
+
   bool present() const { return table_ != nullptr; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
 

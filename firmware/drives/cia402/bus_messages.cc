@@ -30,7 +30,34 @@ std::string object_name(std::uint16_t index, std::uint8_t subindex) {
   return index == 0 ? "" : fmt::format("object {:04X}:{}", index, subindex);
 }
 
-std::string at(const std::string& where, const char* what, const std::string& more) {
+/// Returns the number of a field of the identity as makers print it: a serial number is decimal.
+std::string identity_number(std::uint8_t subindex, std::uint32_t value) {
+  return subindex == hal::kIdentityFields.back().subindex ? fmt::format("{}", value) : fmt::format("0x{:X}", value);
+}
+
+std::string identity_field(const hal::BringUpResult& result) {
+  for (const hal::IdentityField& field : hal::kIdentityFields) {
+    if (field.subindex == result.subindex) return field.name;
+  }
+  return "identity";
+}
+
+/// Returns the words about drives that answer at the wrong joints, with the joints.
+std::string of_two_joints(const hal::BringUpResult& result) {
+  const int other = result.other_joint + 1;
+  if (result.status == hal::BringUpStatus::kDrivesSwapped) {
+    return fmt::format(
+        "the drives of joints {} and {} are swapped, or their cables or node numbers; swap them back, or correct "
+        "identity in the device file",
+        result.joint + 1, other);
+  }
+  return fmt::format(
+      "is not the drive that the device file names; that drive answers as the one of joint {}; exchange the drives, "
+      "their cables or their node numbers, or correct identity in the device file",
+      other);
+}
+
+std::string at(const std::string& where, const std::string& what, const std::string& more) {
   std::string text = where.empty() ? what : fmt::format("{}: {}", where, what);
   if (!more.empty()) text += fmt::format(" ({})", more);
   return text;
@@ -43,6 +70,7 @@ std::string explain(const hal::BringUpResult& result, const std::vector<std::str
   if (result.node > 0) append(where, fmt::format("node {}", result.node));
   append(where, joint_name(result.joint));
   append(where, object_name(result.index, result.subindex));
+  std::string what = describe(result.status);
   std::string more;
   switch (result.status) {
     case hal::BringUpStatus::kSecondMaster: more = fmt::format("COB-ID {:03X}", result.found); break;
@@ -57,9 +85,18 @@ std::string explain(const hal::BringUpResult& result, const std::vector<std::str
     case hal::BringUpStatus::kWrongRatio:
       more = fmt::format("{:.9g} instead of {:.9g}", result.ratio_found, result.ratio_expected);
       break;
+    case hal::BringUpStatus::kDrivesSwapped:
+    case hal::BringUpStatus::kDriveElsewhere: what = of_two_joints(result); [[fallthrough]];
+    case hal::BringUpStatus::kWrongDrive:
+      more = fmt::format("{} {} instead of {}", identity_field(result), identity_number(result.subindex, result.found),
+                         identity_number(result.subindex, result.expected));
+      break;
+    case hal::BringUpStatus::kNoIdentity:
+      more = fmt::format("{} {}", identity_field(result), identity_number(result.subindex, result.expected));
+      break;
     default: break;
   }
-  return at(where, describe(result.status), more);
+  return at(where, what, more);
 }
 
 std::string explain(const hal::cia402::AlarmDetail& alarm, const std::vector<std::string>& interfaces) {

@@ -5,6 +5,7 @@
 #include "firmware/drives/cia402/bus_plan_table.h"
 #include "firmware/drives/cia402/can_buses.h"
 #include "firmware/drives/cia402/cia402_link.h"
+#include "firmware/drives/cia402/serial_numbers.h"
 #include "firmware/machine/can_interfaces.h"
 #include "toolchain/command_line/failure.h"
 
@@ -20,7 +21,9 @@ void Cia402Family::require_plan() const {
 
 std::vector<Finding> Cia402Family::examine(const std::string& transport) const {
   if (transport == kSimulatedTransport) return {};
-  return examine_can_interfaces(split_names(transport), layout_);
+  std::vector<Finding> findings = examine_can_interfaces(split_names(transport), layout_);
+  if (layout_.joint_count > 0) findings.push_back(check_serial_numbers(layout_));
+  return findings;
 }
 
 std::unique_ptr<DriveLink> Cia402Family::connect(const LinkRequest& request) const {

@@ -2,6 +2,7 @@
 
 #include "firmware/drives/cia402/bus_messages.h"
 #include "firmware/drives/cia402/commissioning.h"
+#include "firmware/drives/cia402/serial_numbers.h"
 #include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
@@ -16,6 +17,8 @@ Cia402Link::Cia402Link(const LinkRequest& request, const hal::BusLayout& layout,
     warnings_.emplace_back(
         "bus.drive_delay = 0: the gain check does not count the drives' own delay; take it from their manual");
   }
+  const Finding serials = check_serial_numbers(layout_);
+  if (real && !serials.good) warnings_.push_back(serials.what + "; " + serials.cure);
 }
 
 bool Cia402Link::start(hal::Clock& clock, const std::atomic<bool>& end) {
@@ -32,7 +35,7 @@ std::string Cia402Link::alarm() const { return explain(drives_.alarm_detail(), b
 
 CommissioningReport Cia402Link::commission(hal::Clock& clock, const std::atomic<bool>& end) {
   const std::vector<JointTrial> trials = try_drives(drives_, layout_, transport_->buses(), clock, bus_names(), end);
-  return {trial_table(layout_, trials), trial_objection(trials)};
+  return {trial_table(layout_, trials), identity_keys(layout_, trials), trial_objection(trials)};
 }
 
 }  // namespace godobject::firmware

@@ -180,8 +180,9 @@ std::vector<JointTrial> try_drives(hal::CanDrives& drives, const hal::BusLayout&
       return value;
     };
     trials[i].device_type = read(hal::canopen::kDeviceType, 0);
-    trials[i].vendor = read(hal::canopen::kIdentity, 1);
-    trials[i].product = read(hal::canopen::kIdentity, 2);
+    for (const hal::IdentityField& field : hal::kIdentityFields) {
+      trials[i].identity.*field.value = read(hal::canopen::kIdentity, field.subindex);
+    }
     trials[i].rated_torque = read(hal::canopen::kMotorRatedTorque, 0);
     try_mode(*buses[static_cast<std::size_t>(drive.bus)], clock, drive.node, trials[i]);
   }
@@ -201,9 +202,25 @@ std::string trial_table(const hal::BusLayout& layout, std::span<const JointTrial
     const hal::DriveConfig& drive = layout.drives[i];
     const JointTrial& trial = trials[i];
     fmt::format_to(out, "{:>5} {:>3} {:>4} {:>8} {:>8} {:>8} {:>8} {:>4} {:>8.4f} {:>8.4f} {:>10} {:>13g} ms  {}\n",
-                   i + 1, drive.bus, drive.node, hex(trial.device_type), hex(trial.vendor), hex(trial.product),
+                   i + 1, drive.bus, drive.node, hex(trial.device_type), hex(trial.identity.vendor),
+                   hex(trial.identity.product),
                    trial.rated_torque ? fmt::format("{:.4g}", 1e-3 * *trial.rated_torque) : "-", drive.sign, drive.zero,
                    trial.position, mode_told(trial), 1e3 * layout.command_deadline, seen(trial));
+  }
+  return text;
+}
+
+std::string identity_keys(const hal::BusLayout& layout, std::span<const JointTrial> trials) {
+  std::string text;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    std::vector<std::string> keys;
+    for (const hal::IdentityField& field : hal::kIdentityFields) {
+      const std::optional<std::uint32_t>& value = trials[i].identity.*field.value;
+      const bool is_serial = field.value == &hal::DriveIdentity::serial;
+      if (value) keys.push_back(fmt::format(fmt::runtime(is_serial ? "{} = {}" : "{} = 0x{:X}"), field.name, *value));
+    }
+    fmt::format_to(std::back_inserter(text), "identity = {{ {} }}  # joint {}: bus {}, node {}\n",
+                   fmt::join(keys, ", "), i + 1, layout.drives[i].bus, layout.drives[i].node);
   }
   return text;
 }

@@ -15,8 +15,7 @@ namespace godobject::firmware {
 /// Identity of a joint's drive, and its reactions to a change of mode and to missing RPDOs.
 struct JointTrial {
   std::optional<std::uint32_t> device_type;   ///< object 1000; none: no answer
-  std::optional<std::uint32_t> vendor;        ///< 1018:1
-  std::optional<std::uint32_t> product;       ///< 1018:2
+  hal::DriveIdentity identity;                ///< 1018, as far as the drive has it
   std::optional<std::uint32_t> rated_torque;  ///< 6076 [mNm]
   double position = 0.0;        ///< joint position by counts, gear, sign and zero of the device file [rad]
   int mode_after_ms = -1;       ///< time until TPDO2 showed another mode, the longer of two; -1: it did not
@@ -48,6 +47,9 @@ inline constexpr int kSeenAfter_ms = 2;
 
 /// The results as a table: one line a joint, each with a line feed.
 std::string trial_table(const hal::BusLayout& layout, std::span<const JointTrial> trials);
+
+/// The identities of the drives as keys for the device file: one line a joint, each with a line feed.
+std::string identity_keys(const hal::BusLayout& layout, std::span<const JointTrial> trials);
 
 /// The joints that failed, and how to test a deadline in another way, as one line without a line feed; empty: all
 /// passed.

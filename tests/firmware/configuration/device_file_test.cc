@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -175,6 +176,13 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"\nbus = 0\nnode = 1\n", "\nbus = 8\nnode = 1\n", "joint[1].bus = 8 is out of range"},
            {"\nsign = -1\n", "\nsign = 0.5\n", "joint[3].sign must be 1 or -1"},
            {"\nrated_torque = 0.15\n", "\nrated_torque = 15.0\n", "joint[1].rated_torque times gear is 150 Nm"},
+           {"serial = 2 }", "serial = 1 }", "joint[2].identity.serial = 1 is also joint 1's"},
+           {"serial = 2 }", "serial = -1 }", "joint[2].identity.serial = -1 is out of range"},
+           {"serial = 2 }", "serial = 4294967296 }", "joint[2].identity.serial = 4.29497e+09 is out of range"},
+           {"serial = 2 }", "serial = 2.5 }", "joint[2].identity.serial must be a whole number"},
+           {"serial = 2 }", "number = 2 }", "joint[2].identity.number is not a known key; known here: vendor, product"},
+           {"vendor = 0x0", "vendor = \"us\"", "joint[1].identity.vendor must be a whole number"},
+           {"\nidentity = {", "\nidentity = 1 # {", "joint[1].identity must be a table: write identity = { ... }"},
            {"bit_rate = 1e6", "bit_rate = 2e6", "bus.bit_rate = 2e+06 is out of range"},
            {"drive_delay = 0.0\n", "", "bus.drive_delay is missing"},
            {"drive_delay = 0.0", "drive_delay = -1e-6", "bus.drive_delay = -1e-06 is out of range"},
@@ -190,8 +198,52 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
   test::record_start(code_, std::to_string(refused) + " cases, the last: " + words);
   EXPECT_NE(refusal("panel_bus = 2", "panel_bus = 2\nheartbeat = 1").find("bus.heartbeat is not a known key"),
             std::string::npos);
-  EXPECT_NE(refusal("velocity = 8.0", "velocity = nan").find(".toml:51:"), std::string::npos)
+  EXPECT_NE(refusal("velocity = 8.0", "velocity = nan").find(".toml:53:"), std::string::npos)
       << refusal("velocity = 8.0", "velocity = nan");
+}
+
+/// Each field alone, all, and none; numbers up to the last of 32 bits.
+TEST_F(DeviceFileTest, ReadsTheIdentityOfADriveAsFarAsItIsNamed) {
+  const std::string all = "identity = { vendor = 0x0, product = 0x1, revision = 0x10000, serial = 1 }";
+  for (unsigned fields = 0; fields < 16; ++fields) {
+    std::string keys;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if ((fields >> k & 1) == 0) continue;
+      keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", hal::kIdentityFields.at(k).name, 4294967295u - k);
+    }
+    ASSERT_EQ(refusal(all, "identity = { " + keys + " }"), "") << keys;
+    const Device device = read_device_file(file_);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::optional<std::uint32_t> value = device.bus.drives[0].identity.*hal::kIdentityFields.at(k).value;
+      EXPECT_EQ(value, (fields >> k & 1) == 0 ? std::nullopt : std::optional<std::uint32_t>(4294967295u - k)) << keys;
+    }
+    EXPECT_EQ(device.bus.drives[1].identity.serial, 2u) << "the others keep theirs";
+  }
+  ASSERT_EQ(refusal(all, ""), "");
+  EXPECT_FALSE(read_device_file(file_).bus.drives[0].identity.serial);
+}
+
+/// A serial number is one of its product: drives of another product or vendor may have it again.
+TEST_F(DeviceFileTest, MayHaveASerialNumberOnceForEachProduct) {
+  const std::string second = "product = 0x1, revision = 0x10000, serial = 2 }";
+  EXPECT_EQ(refusal(second, "product = 0x2, revision = 0x10000, serial = 1 }"), "");
+  EXPECT_NE(refusal(second, "serial = 1 }").find("joint[2].identity.serial = 1 is also joint 1's"), std::string::npos)
+      << "without a product it may be the same drive";
+  EXPECT_EQ(refusal(second, "product = 0x1, revision = 0x10000 }"), "")
+      << "drives without a serial number are not compared";
+}
+
+TEST_F(DeviceFileTest, ShippedFilesNameTheSimulatedDrives) {
+  for (const char* name : {"desktop6", "lwr"}) {
+    const Device device = read_device_file(fmt::format("{}/devices/{}.toml", GODOBJECT_FIRMWARE_DIR, name));
+    for (int i = 0; i < device.bus.joint_count; ++i) {
+      const hal::DriveConfig& drive = device.bus.drives[static_cast<std::size_t>(i)];
+      EXPECT_EQ(drive.identity.vendor, 0u) << name << i;
+      EXPECT_EQ(drive.identity.product, 1u) << name << i;
+      EXPECT_EQ(drive.identity.revision, 0x10000u) << name << i;
+      EXPECT_EQ(drive.identity.serial, static_cast<std::uint32_t>(drive.node)) << name << i;
+    }
+  }
 }
 
 TEST_F(DeviceFileTest, ReadsTheDrivesDelay) {

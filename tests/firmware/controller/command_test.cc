@@ -304,7 +304,9 @@ TEST_F(ControllerCommandTest, KeepsToTheClockOnRequest) {
 
 TEST_F(ControllerCommandTest, CommissionsTheSimulatedDrives) {
   EXPECT_EQ(run("commission c.toml"), 0) << words_;
-  EXPECT_EQ(std::count(words_.begin(), words_.end(), '\n'), 8) << words_;
+  EXPECT_EQ(std::count(words_.begin(), words_.end(), '\n'), 8 + 2 + 7) << words_;
+  EXPECT_TRUE(says("\n\nThe drives tell these identities. Paste each line ")) << words_;
+  EXPECT_TRUE(says("serial = 7 }  # joint 7: bus 2, node 7\n")) << words_;
   std::size_t seen = 0;
   for (std::size_t at = words_.find("emergency 8250"); at != std::string::npos;
        at = words_.find("emergency 8250", at + 1)) {

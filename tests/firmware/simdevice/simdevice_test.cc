@@ -7,8 +7,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <functional>
 #include <regex>
+#include <sstream>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -294,6 +296,74 @@ TEST_F(SimdeviceTest, IsControlledByAnotherProcessOverItsInterfaces) {
   process.send(SIGTERM);
   EXPECT_EQ(process.wait(), 0);
   EXPECT_FALSE(says("joint 1: 0 commands", "device.txt") || says("joint 7: 0 commands", "device.txt"));
+}
+
+/// The controller's device file has other serial numbers than the device's one: joints 2 and 5 are swapped.
+TEST_F(SimdeviceTest, GivesNoPowerToSwappedDrives) {
+  const std::string controller = text("c.toml");
+  std::string file;
+  {
+    std::ostringstream all;
+    all << std::ifstream(GODOBJECT_FIRMWARE_DIR "/devices/lwr.toml").rdbuf();
+    file = all.str();
+  }
+  const auto replace = [](std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+  };
+  file = replace(file, "serial = 2 }", "serial = 55 }");
+  file = replace(file, "serial = 5 }", "serial = 2 }");
+  file = replace(file, "serial = 55 }", "serial = 5 }");
+  std::ofstream(folder_ / "swapped.toml") << file;
+  std::ofstream(folder_ / "other.toml") << replace(controller, GODOBJECT_FIRMWARE_DIR "/devices/lwr.toml",
+                                                   "swapped.toml");
+  Process process = device({"c.toml", "--bus", "can0,can1,can2"}, "device.txt");
+  ASSERT_EQ(pipes(process).size(), 3u) << text("device.txt");
+  for (const bool commission : {false, true}) {
+    std::vector<std::string> arguments{"other.toml", "--bus", "can0,can1,can2"};
+    if (commission) arguments.insert(arguments.begin(), "commission");
+    const int code = start(GODOBJECT_CONTROLLER, arguments).wait();
+    if (code == 77) GTEST_SKIP() << "no right to real-time work: " << text("log.txt");
+    EXPECT_EQ(code, 69) << text("log.txt");
+    EXPECT_TRUE(
+        says("can0, node 2, joint 2, object 1018:4: the drives of joints 2 and 5 are swapped, or their cables or "
+             "node numbers; swap them back, or correct identity in the device file (serial 2 instead of 5)\n"))
+        << text("log.txt");
+  }
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 0);
+  for (int joint = 1; joint <= 7; ++joint) {
+    EXPECT_TRUE(says("joint " + std::to_string(joint) + ": 0 commands, 0 trips, switch on disabled", "device.txt"));
+  }
+}
+
+/// The warning comes once a run, and only if real drives have no serial number in the device file.
+TEST_F(SimdeviceTest, WarnsOfDrivesWithoutASerialNumber) {
+  const std::string warning =
+      "the device file does not name the drives' serial numbers; two swapped drives would not be found";
+  const auto warnings = [&](const std::vector<std::string>& arguments) {
+    start(GODOBJECT_CONTROLLER, arguments, "log.txt", false).wait();
+    const std::string words = text("log.txt");
+    int count = 0;
+    for (std::size_t at = 0; (at = words.find(warning, at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  EXPECT_EQ(warnings({"c.toml", "--bus", "can0,can1,can2"}), 0) << text("log.txt");
+  EXPECT_EQ(warnings({"doctor", "c.toml", "--bus", "can0,can1,can2"}), 0) << text("log.txt");
+  EXPECT_TRUE(says("ok   serial numbers of the drives in the device file\n")) << text("log.txt");
+  std::ostringstream all;
+  all << std::ifstream(GODOBJECT_FIRMWARE_DIR "/devices/lwr.toml").rdbuf();
+  std::string file = std::regex_replace(all.str(), std::regex(", serial = [35] \\}"), " }");
+  std::ofstream(folder_ / "unnamed.toml") << file;
+  const std::string controller = text("c.toml");
+  std::ofstream(folder_ / "c.toml") << std::regex_replace(controller, std::regex("file = \"[^\"]*\""),
+                                                          "file = \"unnamed.toml\"");
+  EXPECT_EQ(warnings({"c.toml", "--bus", "can0,can1,can2"}), 1) << text("log.txt");
+  EXPECT_TRUE(says("(joints 3, 5)")) << text("log.txt");
+  EXPECT_EQ(warnings({"doctor", "c.toml", "--bus", "can0,can1,can2"}), 1) << text("log.txt");
+  EXPECT_TRUE(says("LACK " + warning)) << text("log.txt");
+  EXPECT_EQ(warnings({"c.toml", "--duration", "0.01"}), 0) << "a simulated bus: " << text("log.txt");
 }
 
 TEST_F(SimdeviceTest, EndsAControllerThatHasNoDrivesWhenItIsAskedTo) {

@@ -69,6 +69,38 @@ TEST(BusMessages, AStartThatFailsIsToldWithItsPlaceAndNumbers) {
   }
 }
 
+/// The field, both numbers, and the joints of a swap with the cure. Serial numbers are decimal, as on a label.
+TEST(BusMessages, AWrongDriveIsToldWithItsFieldAndNumbers) {
+  using hal::BringUpStatus;
+  hal::BringUpResult result{.status = BringUpStatus::kWrongDrive, .bus = 0, .node = 5, .joint = 1, .index = 0x1018};
+  result.expected = 171;
+  result.found = 300;
+  const auto told = [&](BringUpStatus status, std::uint8_t subindex) {
+    result.status = status;
+    result.subindex = subindex;
+    return explain(result, kNames);
+  };
+  const std::string wrong = words(BringUpStatus::kWrongDrive);
+  EXPECT_EQ(told(BringUpStatus::kWrongDrive, 1),
+            "can0, node 5, joint 2, object 1018:1: " + wrong + " (vendor 0x12C instead of 0xAB)");
+  EXPECT_EQ(told(BringUpStatus::kWrongDrive, 2),
+            "can0, node 5, joint 2, object 1018:2: " + wrong + " (product 0x12C instead of 0xAB)");
+  EXPECT_EQ(told(BringUpStatus::kWrongDrive, 3),
+            "can0, node 5, joint 2, object 1018:3: " + wrong + " (revision 0x12C instead of 0xAB)");
+  EXPECT_EQ(told(BringUpStatus::kWrongDrive, 4),
+            "can0, node 5, joint 2, object 1018:4: " + wrong + " (serial 300 instead of 171)");
+  EXPECT_EQ(told(BringUpStatus::kNoIdentity, 4),
+            "can0, node 5, joint 2, object 1018:4: " + words(BringUpStatus::kNoIdentity) + " (serial 171)");
+  result.other_joint = 6;
+  EXPECT_EQ(told(BringUpStatus::kDrivesSwapped, 4),
+            "can0, node 5, joint 2, object 1018:4: the drives of joints 2 and 7 are swapped, or their cables or node "
+            "numbers; swap them back, or correct identity in the device file (serial 300 instead of 171)");
+  EXPECT_EQ(told(BringUpStatus::kDriveElsewhere, 4),
+            "can0, node 5, joint 2, object 1018:4: is not the drive that the device file names; that drive answers as "
+            "the one of joint 7; exchange the drives, their cables or their node numbers, or correct identity in the "
+            "device file (serial 300 instead of 171)");
+}
+
 /// Each part of a place alone, and none.
 TEST(BusMessages, APlaceHasOnlyThePartsThatAreKnown) {
   const std::string what = words(hal::BringUpStatus::kNoAnswer);

@@ -80,7 +80,7 @@ TEST_F(CommissioningTest, SeesTheDeadlineOfEachJointWithoutPower) {
     EXPECT_EQ(trial.emergency, 0x8250);
     EXPECT_EQ(trial.after_ms, 5) << "4 ms after the last frame, taken with the next samples";
     EXPECT_EQ(trial.device_type, 0x00020192u);
-    EXPECT_EQ(trial.vendor, 0u);
+    EXPECT_EQ(trial.identity.vendor, 0u);
     EXPECT_GE(trial.mode_after_ms, 0);
     EXPECT_LE(trial.mode_after_ms, 2);
     const double rated_mNm = 1e3 * layout_.drives.at(static_cast<std::size_t>(i)).rated_torque;
@@ -237,11 +237,13 @@ TEST_F(CommissioningTest, TriesTheDeadlineOfADriveThatRefusesObjects) {
   start({}, refuses);
   ASSERT_EQ(now_ms(), begin);
   const std::vector<JointTrial> trials = run();
-  EXPECT_FALSE(trials[0].device_type || trials[0].vendor || trials[0].product || trials[0].rated_torque);
+  EXPECT_FALSE(trials[0].device_type || trials[0].identity.vendor || trials[0].identity.product ||
+               trials[0].rated_torque);
   EXPECT_TRUE(trials[0].mode_refused);
   EXPECT_EQ(trials[0].mode_after_ms, -1);
   EXPECT_TRUE(trials[0].in_time);
-  EXPECT_TRUE(trials[1].device_type && trials[1].vendor && trials[1].product && trials[1].rated_torque);
+  EXPECT_TRUE(trials[1].device_type && trials[1].identity.vendor && trials[1].identity.product &&
+              trials[1].rated_torque);
   EXPECT_FALSE(trials[1].mode_refused);
   EXPECT_NE(trial_table(layout_, trials).find("    1   0    1        -        -        -        - "), std::string::npos)
       << trial_table(layout_, trials);
@@ -443,6 +445,32 @@ TEST(CommissioningTable, ShowsOfAReactionOnlyWhatWasSeen) {
   EXPECT_NE(table.find(" ms  fault after 7 ms\n"), std::string::npos) << table;
 }
 
+/// The printed lines are keys of a device file: whoever pastes them names the drives that were read.
+TEST_F(CommissioningTest, PrintsIdentitiesToPaste) {
+  layout_.drives[1].identity = {.vendor = 0x29C, .product = 0xFFFFFFFF, .revision = 0x10002, .serial = 4294967295};
+  start();
+  const std::vector<JointTrial> trials = run();
+  const std::string keys = identity_keys(layout_, trials);
+  EXPECT_EQ(std::count(keys.begin(), keys.end(), '\n'), 7);
+  EXPECT_EQ(keys.rfind("identity = { vendor = 0x0, product = 0x1, revision = 0x10000, serial = 1 }  # joint 1: bus 0, "
+                       "node 1\nidentity = { vendor = 0x29C, product = 0xFFFFFFFF, revision = 0x10002, serial = "
+                       "4294967295 }  # joint 2: bus 0, node 2\n",
+                       0),
+            0u)
+      << keys;
+}
+
+/// A drive may lack all fields but the vendor; what it does not tell is not printed.
+TEST(CommissioningTable, NamesOfAnIdentityOnlyWhatTheDriveTells) {
+  hal::BusLayout layout;
+  layout.joint_count = 2;
+  std::vector<JointTrial> trials(2);
+  trials[0].identity.vendor = 0x1A;
+  EXPECT_EQ(identity_keys(layout, trials),
+            "identity = { vendor = 0x1A }  # joint 1: bus 0, node 1\n"
+            "identity = {  }  # joint 2: bus 0, node 1\n");
+}
+
 TEST(CommissioningTable, HasEachNumberInItsPlace) {
   hal::BusLayout layout;
   layout.joint_count = 3;
@@ -455,8 +483,8 @@ TEST(CommissioningTable, HasEachNumberInItsPlace) {
   }
   std::vector<JointTrial> trials(3);
   trials[0].device_type = 0x20192;
-  trials[0].vendor = 0xAB;
-  trials[0].product = 0xCD;
+  trials[0].identity.vendor = 0xAB;
+  trials[0].identity.product = 0xCD;
   trials[0].rated_torque = 1760;
   trials[0].position = 1.5;
   trials[0].mode_after_ms = 0;
