@@ -62,6 +62,7 @@ struct JointReading {
   JointVector torque = JointVector::Zero();     ///< measured by the drive [Nm]
   std::array<std::uint32_t, kMaxJoints> age{};  ///< cycles since the last sample; 0: fresh
   std::array<DriveState, kMaxJoints> state{};   ///< power state of each drive
+  std::array<bool, kMaxJoints> limited{};       ///< the drive gives less torque than commanded, by a limit of its own
   bool emergency_stop = false;                  ///< the emergency stop is pressed, or its line is dead
   bool enable_switch = false;                   ///< the operator holds the enable switch
   bool clutch_open = false;                     ///< the operator moves the arm without moving the mesh

@@ -275,7 +275,9 @@ void Cia402Slave::follow_torque() noexcept {
   if (mode_display() != kModeTorque) return motor_.set_torque(0.0);
   const std::int32_t asked = objects().signed_value(kTargetTorque);
   const auto limit = [this](std::uint16_t of_direction) {
-    return static_cast<std::int32_t>(std::min(objects().value(kMaxTorque), objects().value(of_direction)));
+    const double own = std::min(own_limit_ / motor_.parameters().torque_step, 65535.0);
+    const std::uint32_t set = std::min(objects().value(kMaxTorque), objects().value(of_direction));
+    return static_cast<std::int32_t>(std::min(set, static_cast<std::uint32_t>(own)));
   };
   const std::int32_t permille = std::clamp(asked, -limit(kNegativeTorqueLimit), limit(kPositiveTorqueLimit));
   limited_ = permille != asked;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "hal/cia402/bus_layout.h"
 #include "sim/canopen_node.h"
@@ -63,6 +64,10 @@ class Cia402Slave final : public CanopenNode {
   /// ends it.
   void slip_mode(std::int8_t mode) noexcept;
 
+  /// The drive's own limit of its torque at the joint [Nm], as by current or heat. Bit 11 of the statusword shows it
+  /// while it clips. At first infinite.
+  void set_own_limit(double torque) noexcept { own_limit_ = torque; }
+
   /// Encoder faults: the reading is `jump` [rad] too large, and constant while `stuck`.
   void set_encoder_fault(double jump, bool stuck) noexcept;
 
@@ -94,7 +99,8 @@ class Cia402Slave final : public CanopenNode {
   std::int64_t command_since_ns_ = 0;
   std::uint64_t commands_ = 0;
   std::uint64_t trips_ = 0;
-  bool limited_ = false;  ///< the commanded torque is above 6072
+  bool limited_ = false;  ///< the commanded torque is above 6072, 60E0, 60E1 or the own limit
+  double own_limit_ = std::numeric_limits<double>::infinity();
   double position_ = 0.0;
   double velocity_ = 0.0;
   double encoder_jump_ = 0.0;

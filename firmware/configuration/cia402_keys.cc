@@ -93,7 +93,7 @@ void set_usual_times(hal::BusLayout& bus) {
 
 void read_bus(const TomlTable& table, hal::BusLayout& bus) {
   table.allow({"period", "bit_rate", "fd", "fd_services", "data_rate", "answer", "drive_delay", "command_deadline",
-               "drive_heartbeat", "heartbeat_timeout", "boot_timeout", "panel_bus", "panel_node"});
+               "drive_heartbeat", "heartbeat_timeout", "boot_timeout", "limited_time", "panel_bus", "panel_node"});
   bus.period = table.number("period", {format::kShortestPeriod, format::kLongestPeriod}, bus.period);
   require_exact_period(table, bus.period);
   set_usual_times(bus);
@@ -114,6 +114,7 @@ void read_bus(const TomlTable& table, hal::BusLayout& bus) {
   bus.heartbeat_timeout =
       table.number("heartbeat_timeout", {two_heartbeats, 0.5}, std::max(bus.heartbeat_timeout, two_heartbeats));
   bus.boot_timeout = table.number("boot_timeout", {0.1, 60.0}, bus.boot_timeout);
+  bus.limited_time = table.number("limited_time", {bus.period, 1.0}, std::max(bus.limited_time, bus.period));
   bus.panel.bus = static_cast<int>(table.whole_number("panel_bus", {-1, hal::kMaxBuses - 1}, bus.panel.bus));
   bus.panel.node = static_cast<int>(table.whole_number("panel_node", {1, 126}, bus.panel.node));
 }

@@ -32,6 +32,7 @@ CycleSetup cycle_setup(const ControllerConfig& config, const SceneView& scene, c
   setup.supervisor.prepare_cycles = static_cast<std::uint32_t>(1.0 / rate) + 5;
   setup.supervisor.engage_cycles = cycles(config.engage.ramp);
   setup.supervisor.engage_force = config.engage.force;
+  setup.supervisor.limited_cycles = cycles(config.device.bus.limited_time);
   setup.supervisor.sign_test = config.start.sign_test;
   setup.supervisor.sign = {config.start.push, config.start.motion};
   return setup;

@@ -45,6 +45,15 @@ void OperatorNotice::look() {
                     kMoreTime));
   }
   said_behind_ = is_behind;
+  const auto limited = report_.limited.exchange(0, std::memory_order_relaxed);
+  for (int i = 0; i < kMaxJoints; ++i) {
+    if (((limited & ~said_limited_) >> i & 1) == 0) continue;
+    warn(
+        fmt::format("joint {}: the drive limits its torque by itself (statusword bit 11), the force is too low; check "
+                    "its current limits, supply voltage and temperature",
+                    i + 1));
+  }
+  said_limited_ = static_cast<std::uint8_t>(said_limited_ | limited);
   const bool stopped = standing.mode == Mode::kStopped && !refuses_to_start(standing.fault);
   if (stopped && !said_stopped_) {
     warn(fmt::format("stopped: {}; to go on, release enable switch and emergency stop, then kill -USR1 {}",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <stop_token>
 
 #include "firmware/loop/controller_run.h"
@@ -7,7 +8,8 @@
 namespace godobject::firmware {
 
 /// Tells the operator, once for each occasion, what to do: the controller waits for longer than 3 s, the god object
-/// stays behind for longer than 0.3 s because of the budget of work, or the arm has stopped.
+/// stays behind for longer than 0.3 s because of the budget of work, a drive limits its torque by itself (once a run
+/// for each joint), or the arm has stopped.
 class OperatorNotice {
  public:
   /// `report`: of the running loop; outlives this. `period`: T [s].
@@ -25,6 +27,7 @@ class OperatorNotice {
   bool said_waiting_ = false;
   bool said_behind_ = false;
   bool said_stopped_ = false;
+  std::uint8_t said_limited_ = 0;  // one bit a joint
 };
 
 }  // namespace godobject::firmware

@@ -49,6 +49,9 @@ std::string run_summary(const RunReport& report, const CycleCounters& counters, 
     fmt::format_to(out, "budget of work: spent in {} cycles, at most {} in a row\n", counters.out_of_work,
                    counters.most_out_of_work);
   }
+  if (counters.limited > 0) {
+    fmt::format_to(out, "internal limit of a drive: active in {} cycles with power\n", counters.limited);
+  }
   if (page_faults) {
     fmt::format_to(out, "round trip: {}\n", quantiles(report.round_trip));
     fmt::format_to(out, "waking late: {}\n", quantiles(report.loop.lateness));

@@ -164,6 +164,7 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
     const ArmJoint& joint = setup_.arm->joints[static_cast<std::size_t>(i)];
     if (positions_.q[i] < joint.lower || positions_.q[i] > joint.upper) seen.joint_beyond_limit = i;
   }
+  seen.limited = reading_.limited;
   seen.too_fast = at_hand_.too_fast || limiter_.too_fast(qd_) || positions_.runs_away;
   seen.status = status;
   seen.pushed_joint = model_.pushed_joint();
@@ -178,6 +179,17 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
   seen.end_requested = events.end_requested;
   seen.reset_requested = events.reset_requested;
   return seen;
+}
+
+/// Returns the drives that are enabled as requested and limit their torque, one bit a joint.
+std::uint8_t ControlCycle::limited_drives(hal::PowerRequest power) const noexcept {
+  static_assert(kMaxJoints <= 8);
+  unsigned drives = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(setup_.arm->joint_count); ++i) {
+    const bool enabled = power == hal::PowerRequest::kEnable && reading_.state[i] == hal::DriveState::kEnabled;
+    if (enabled && reading_.limited[i]) drives |= 1u << i;
+  }
+  return static_cast<std::uint8_t>(drives);
 }
 
 void ControlCycle::keep(const Decision& decision) noexcept {
@@ -201,6 +213,7 @@ void ControlCycle::keep(const Decision& decision) noexcept {
   record_.penetration = report_.penetration;
   record_.contacts = report_.contacts;
   record_.lost = positions_.lost;
+  record_.limited = limited_drives(decision.power);
   record_.clutch_is_open = clutch_is_open_;
   record_.outcome = report_.outcome;
 }
@@ -219,6 +232,7 @@ void ControlCycle::count(const LoopEvents& events) noexcept {
   counters_.scaled += add(rendering && joint_torque_.scale < 1.0);
   counters_.rate_limited += add(limiter_.rate_limited());
   counters_.unconverged += add(rendering && report_.unconverged);
+  counters_.limited += add(record_.limited != 0);
   record_.behind = rendering && report_.out_of_work ? record_.behind + 1 : 0;
   counters_.out_of_work += add(record_.behind > 0);
   counters_.most_out_of_work = std::max<std::uint64_t>(counters_.most_out_of_work, record_.behind);

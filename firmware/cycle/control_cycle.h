@@ -44,6 +44,7 @@ struct CycleCounters {
   std::uint64_t unconverged = 0;       ///< cycles in which the friction solver did not converge
   std::uint64_t out_of_work = 0;       ///< cycles that the budget of work ended
   std::uint64_t most_out_of_work = 0;  ///< the most of them in a row
+  std::uint64_t limited = 0;           ///< cycles with power in which a drive limited its torque by itself
 };
 
 /// The results of a cycle for telemetry and report.
@@ -68,6 +69,7 @@ struct CycleRecord {
   std::uint32_t contacts = 0;
   std::uint32_t lost = 0;       ///< cycles in a row without a fresh position, of the worst joint
   std::uint32_t behind = 0;     ///< rendering cycles in a row that the budget of work ended
+  std::uint8_t limited = 0;     ///< drives with power that limit their torque by themselves, one bit a joint
   bool clutch_is_open = false;  ///< the tool moves, the mesh rests
   Outcome outcome = Outcome::kFree;
 };
@@ -133,6 +135,7 @@ class ControlCycle {
   Status compute_torque(const ArmKinematics& kinematics) noexcept;
   Observation observe(const LoopEvents& events, Status status) const noexcept;
   void count(const LoopEvents& events) noexcept;
+  std::uint8_t limited_drives(hal::PowerRequest power) const noexcept;
   void keep(const Decision& decision) noexcept;
 
   CycleSetup setup_;

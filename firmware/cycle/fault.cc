@@ -44,6 +44,9 @@ const char* describe(Fault fault) noexcept {
       return "a drive's measured torque does not follow its command; read its own error display, check rated_torque "
              "and "
              "its current limits";
+    case Fault::kDriveLimited:
+      return "the drive limited its torque by itself for longer than bus.limited_time (statusword bit 11); check its "
+             "current limits, supply voltage and temperature, or lower the joint's torque in the device file";
   }
   return "unknown fault";
 }

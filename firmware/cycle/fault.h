@@ -31,6 +31,7 @@ enum class Fault : std::uint8_t {
   kNotBalanced,     ///< the arm moved or was pushed while it engaged, or sank as wrong masses make it
   kDrifts,          ///< the torque of wrong masses moved the tool on a long way
   kTorqueWrong,     ///< a drive's measured torque does not follow the torque sent
+  kDriveLimited,    ///< a drive limited its torque by itself for too long
 };
 
 /// The fault, or the alarm, as one clause with the cure. Never null.

@@ -44,6 +44,7 @@ Decision Supervisor::step(const Observation& seen) noexcept {
   too_late_ = lateness_.update(std::max(seen.overrun_ns, seen.computed_late_ns));
   too_many_jumps_ = jumps_.update(seen.jumps > 0);
   too_many_lost_ = lost_.update(seen.lost > 0 && powered());
+  watch_limits(seen);
   // a drive that returns may have been exchanged, or connected differently
   if (!seen.drives.all_answer || seen.drive_restarted) sign_tested_ = !parameters_.sign_test;
   const Fault fault = find_fault(seen);
@@ -60,6 +61,23 @@ Decision Supervisor::step(const Observation& seen) noexcept {
   const Decision decision = decide(seen);
   last_power_ = decision.power;
   return decision;
+}
+
+/// While a drive opens its brake its bit may mean anything; without power it means nothing.
+void Supervisor::watch_limits(const Observation& seen) noexcept {
+  const bool may_act = powered() && mode_ != Mode::kEnabling;
+  limited_joint_ = -1;
+  for (int i = joint_count_ - 1; i >= 0; --i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!may_act) limits_[at].reset();
+    if (limits_[at].update(may_act && seen.limited[at], parameters_.limited_cycles)) limited_joint_ = i;
+  }
+}
+
+/// Returns the joint that the fault is of; -1: no single one.
+int Supervisor::joint_of(Fault fault, const Observation& seen) const noexcept {
+  if (fault == Fault::kJointLimit) return seen.joint_beyond_limit;
+  return fault == Fault::kDriveLimited ? limited_joint_ : -1;
 }
 
 /// Comes after the faults of the cycle, so a stop that has begun continues.
@@ -132,6 +150,7 @@ Fault Supervisor::find_fault_with_power(const Observation& seen) const noexcept 
   if (seen.stuck) return Fault::kEncoderStuck;
   if (seen.joint_beyond_limit >= 0) return Fault::kJointLimit;
   if (seen.wrong_torque_joint >= 0) return Fault::kTorqueWrong;
+  if (limited_joint_ >= 0) return Fault::kDriveLimited;
   if (is_unbalanced(seen)) return Fault::kNotBalanced;
   if (mode_ == Mode::kRunning && seen.drifts) return Fault::kDrifts;
   if (too_late_) return seen.overrun_ns >= seen.computed_late_ns ? Fault::kOverruns : Fault::kComputedLate;

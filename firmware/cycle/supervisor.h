@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/device/arm_model.h"
 #include "firmware/cycle/fault.h"
 #include "firmware/cycle/lateness_watch.h"
+#include "firmware/cycle/limit_watch.h"
 #include "firmware/cycle/mode.h"
 #include "firmware/cycle/observation.h"
 #include "firmware/cycle/rate_watch.h"
@@ -50,6 +52,7 @@ class Supervisor {
     std::uint32_t prepare_cycles = 25;  ///< until the torque that holds the arm is reached, before power
     std::uint32_t engage_cycles = 500;  ///< of the ramp to the full wrench
     double engage_force = 0.5;          ///< contact force below which rendering begins [N]
+    std::uint32_t limited_cycles = 50;  ///< for which a drive may limit its torque by itself
     bool sign_test = true;
     SignTest::Parameters sign;
   };
@@ -119,6 +122,8 @@ class Supervisor {
   static int joint_of(Fault fault, const Observation& seen) noexcept;
   void stop(Fault fault, int joint = -1) noexcept;
   void begin_ending() noexcept;
+  void watch_limits(const Observation& seen) noexcept;
+  int joint_of(Fault fault, const Observation& seen) const noexcept;
   Fault find_fault(const Observation& seen) const noexcept;
   Fault find_fault_with_power(const Observation& seen) const noexcept;
   bool is_unbalanced(const Observation& seen) const noexcept;
@@ -171,6 +176,8 @@ class Supervisor {
   LatenessWatch lateness_;
   RateWatch jumps_;
   RateWatch lost_{kMostLost};
+  std::array<LimitWatch, kMaxJoints> limits_{};
+  int limited_joint_ = -1;  // its drive limited its torque for too long; -1: none
   bool too_late_{};
   bool too_many_jumps_{};
   bool too_many_lost_{};

@@ -18,6 +18,7 @@ void watch(const CycleRecord& record, RunReport& report) noexcept {
   if (record.behind > report.longest_behind.load(std::memory_order_relaxed)) {
     report.longest_behind.store(record.behind, std::memory_order_relaxed);
   }
+  if (record.limited != 0) report.limited.fetch_or(record.limited, std::memory_order_relaxed);
   const Standing standing{record.mode, record.fault, record.alarm, static_cast<std::int8_t>(record.alarm_joint)};
   report.standing.store(standing, std::memory_order_relaxed);
   ++report.in_mode[static_cast<std::size_t>(record.mode)];

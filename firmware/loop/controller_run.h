@@ -47,6 +47,8 @@ struct RunReport {
   std::atomic<std::uint32_t> waiting{0};            ///< cycles in a row in kIdle or kArmed; other threads may read it
   /// Longest row of cycles that the budget of work ended, since another thread has set it to 0.
   std::atomic<std::uint32_t> longest_behind{0};
+  /// Drives that limited their torque since another thread has set it to 0, one bit a joint.
+  std::atomic<std::uint8_t> limited{0};
   std::atomic<Standing> standing{};  ///< of the last cycle; other threads may read it
 };
 

@@ -50,6 +50,7 @@ struct BusLayout {
   double heartbeat_timeout = 50e-3;   ///< a missing heartbeat is noticed after this time [s]
   double mode_refresh = 1.0;          ///< a drive sends its mode on change and with this period [s]
   double boot_timeout = 5.0;          ///< until each node must boot [s]
+  double limited_time = 50e-3;        ///< for which a drive may limit its torque by itself [s]
   double read_back_interval = 50e-3;  ///< from one SDO exchange to the next while the drives may have power [s]
   int joint_count = 0;
   std::array<DriveConfig, kMaxJoints> drives{};

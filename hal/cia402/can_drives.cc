@@ -271,6 +271,7 @@ void CanDrives::close_joint(int i) noexcept {
     drive.age = 0;
     reading_.position[i] = drive.channel.position();
     reading_.torque[i] = drive.channel.torque();
+    reading_.limited[at] = drive.channel.limited();
   } else {
     ++drive.age;
     if (probe_ == 0) ++statistics_.lost[at];

@@ -21,6 +21,7 @@ bool JointChannel::take(const CanFrame& tpdo) noexcept {
   if (state == PowerState::kUnknown) return false;
   state_ = state;
   follows_ = (statusword & kStatusFollowsTarget) != 0;
+  limited_ = (statusword & kStatusInternalLimit) != 0;
   if (power_ == PowerRequest::kEnable && state == PowerState::kOperationEnabled) {
     was_enabled_ = true;
     has_followed_ = has_followed_ || follows_;

@@ -24,6 +24,7 @@ class JointChannel {
 
   double position() const noexcept { return position_; }  ///< [rad]
   double torque() const noexcept { return torque_; }      ///< [Nm]
+  bool limited() const noexcept { return limited_; }      ///< bit 11 of the statusword
 
   /// The drive's state. A drive in operation is enabled if it follows the torque; while it still opens its brake it is
   /// off. Without a request for power every drive in operation counts as enabled.
@@ -48,6 +49,7 @@ class JointChannel {
   int reset_hold_ = 1;  // cycles
   PowerState state_ = PowerState::kNotReady;
   bool follows_{};             // bit 12 of the statusword
+  bool limited_ = false;       // bit 11 of the statusword
   bool was_enabled_ = false;   // since power was requested
   bool has_followed_ = false;  // since power was requested
   PowerRequest power_ = PowerRequest::kOff;

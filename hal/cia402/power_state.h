@@ -27,6 +27,7 @@ enum class PowerGoal : std::uint8_t {
 
 enum Statusword : std::uint16_t {
   kStatusRemote = 1u << 9,
+  kStatusInternalLimit = 1u << 11,  ///< the drive gives less than the command: current, voltage or heat limit it
   kStatusFollowsTarget = 1u << 12,  ///< in cyclic synchronous torque mode: the drive follows 6071
 };
 

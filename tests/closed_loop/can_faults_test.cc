@@ -105,6 +105,28 @@ TEST_P(CanFault, StopsInTime) {
   std::printf("%-32s %4d cycles of %4d: %s\n", row.name.c_str(), cycles, row.most, seen.found.c_str());
 }
 
+/// The shoulder gives no torque at all, the worst limit: the arm falls until it stops.
+TEST(CanLimited, AShoulderWithoutTorqueFallsLittleUntilTheStop) {
+  CanRun::Options options = pressing();
+  options.drive_faults = {{FaultKind::kTorqueLimited, 1, kBegin, kForGood, 0.0}};
+  CanRun run(plate(), options);
+  start(run);
+  const Vector3 before = run.cycles.back().record.H_RM.translation;
+  run.run(200);
+  const int cycles = run.cycles_to_stop(kBegin);
+  ASSERT_GT(cycles, 0);
+  const auto at = [&](int k) {
+    return run.cycles[run.cycles.size() - static_cast<std::size_t>(201 - k)].record.H_RM.translation;
+  };
+  const double until_stop = (at(cycles) - before).norm();
+  double in_all = 0.0;
+  for (int k = 1; k <= 200; ++k) in_all = std::max(in_all, (at(k) - before).norm());
+  EXPECT_LT(until_stop, 0.03);
+  std::printf(
+      "[ measured ] a shoulder without torque: STOP after %d cycles, the tool has moved %.1f mm, %.1f mm in all: %s\n",
+      cycles, 1e3 * until_stop, 1e3 * in_all, describe(run.cycles.back().record.fault));
+}
+
 BusFault bus_fault(BusFaultKind kind, int bus, std::int64_t cycles) {
   return {.kind = kind, .bus = bus, .first_cycle = kBegin, .cycles = cycles};
 }
@@ -208,6 +230,12 @@ INSTANTIATE_TEST_SUITE_P(
             {Fault::kDriveLeft, Fault::kAlarm},
             {Alarm::kWrongMode},
             2},
+        Row{"drive_limited",
+            {},
+            {{FaultKind::kTorqueLimited, 1, kBegin, kForGood, 30.0}},
+            {Fault::kDriveLimited},
+            {},
+            52},
         Row{"mode_left",
             {changed(0, 1, 0x6060, 0, 0.0)},
             {},
@@ -308,6 +336,7 @@ std::string counted(CanRun& run) {
   add("queue full", bus.full);
   add("jumps", cycles.jumps);
   add("sends failed", cycles.sends_failed);
+  add("internal limit", cycles.limited);
   return text.empty() ? "nothing to count" : text;
 }
 
@@ -348,6 +377,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"torque_lost_twice", {of_frames(K::kFrameDropped, 2, 0x206, 2)}, {}, {}, {}, 0},
                     Row{"panel_lost_twice", {of_frames(K::kFrameDropped, 2, 0x1A0, 2)}, {}, {}, {}, 0},
                     Row{"foreign_chatter", {foreign(1, frame(0x7A0, {1, 2, 3, 4}), 1.0, 40)}, {}, {}, {}, 0},
+                    Row{"drive_limited_shortly", {}, {{FaultKind::kTorqueLimited, 1, kBegin, 10, 30.0}}, {}, {}, 0},
                     Row{"transmit_queue_full_once", {bus_fault(K::kTransmitQueueFull, 1, 1)}, {}, {}, {}, 0}),
     [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
 

@@ -55,6 +55,23 @@ TEST_F(CanDrivesTest, NothingFollowsSyncWhileDrivesTakeTheirTimeToAnswer) {
   EXPECT_GE(requests, 2);
 }
 
+/// A lost sample keeps the bit of the last one.
+TEST_F(CanDrivesTest, TellsTheInternalLimitOfEachDrive) {
+  cycle(kEnabled);
+  EXPECT_FALSE(reading_.limited[0] || reading_.limited[1]);
+  drives_.request();
+  bus_.receive_next(tpdo(5, kEnabled | 0x0800, 0, 0));
+  bus_.receive_next(tpdo(3, kEnabled, 0, 0));
+  EXPECT_TRUE(receive().limited[0]);
+  EXPECT_FALSE(reading_.limited[1]);
+  drives_.request();
+  bus_.receive_next(tpdo(3, kEnabled | 0x0800, 0, 0));
+  EXPECT_TRUE(receive().limited[0]) << "its sample is lost";
+  EXPECT_TRUE(reading_.limited[1]);
+  cycle(kEnabled);
+  EXPECT_FALSE(reading_.limited[0] || reading_.limited[1]);
+}
+
 TEST_F(CanDrivesTest, ReadsPositionTorqueAndState) {
   count_0_ = 2500;   // of 10 000 a turn
   count_1_ = -1000;  // a quarter turn, the other way round

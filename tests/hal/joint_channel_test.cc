@@ -55,6 +55,19 @@ TEST_F(JointChannelTest, AnInvalidSampleChangesNothing) {
   EXPECT_EQ(channel_.state(), DriveState::kEnabled);
 }
 
+/// Bit 11 in each state, whatever the other bits are; an invalid sample does not change it.
+TEST_F(JointChannelTest, ReadsTheInternalLimit) {
+  EXPECT_FALSE(channel_.limited());
+  for (const int state : {kOff, kBrakeOpens, kEnabled, kQuickStopActive, kFault}) {
+    ASSERT_TRUE(take(state | 0x0800));
+    EXPECT_TRUE(channel_.limited()) << state;
+    EXPECT_FALSE(channel_.take(frame(0x189, {0, 0})));
+    EXPECT_TRUE(channel_.limited()) << state;
+    ASSERT_TRUE(take(state | 0x2480));  // the bits beside it
+    EXPECT_FALSE(channel_.limited()) << state;
+  }
+}
+
 TEST_F(JointChannelTest, MakesFramesOfTheBusFormat) {
   CanFrame rpdo;
   JointChannel fd(DriveConfig{.node = 9, .rated_torque = 2.0}, true, 1e-3);

@@ -183,6 +183,9 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"serial = 2 }", "number = 2 }", "joint[2].identity.number is not a known key; known here: vendor, product"},
            {"vendor = 0x0", "vendor = \"us\"", "joint[1].identity.vendor must be a whole number"},
            {"\nidentity = {", "\nidentity = 1 # {", "joint[1].identity must be a table: write identity = { ... }"},
+           {"drive_delay = 0.0", "drive_delay = 0.0\nlimited_time = 0.0009",
+            "bus.limited_time = 0.0009 is out of range"},
+           {"drive_delay = 0.0", "drive_delay = 0.0\nlimited_time = 1.1", "bus.limited_time = 1.1 is out of range"},
            {"bit_rate = 1e6", "bit_rate = 2e6", "bus.bit_rate = 2e+06 is out of range"},
            {"drive_delay = 0.0\n", "", "bus.drive_delay is missing"},
            {"drive_delay = 0.0", "drive_delay = -1e-6", "bus.drive_delay = -1e-06 is out of range"},
@@ -244,6 +247,12 @@ TEST_F(DeviceFileTest, ShippedFilesNameTheSimulatedDrives) {
       EXPECT_EQ(drive.identity.serial, static_cast<std::uint32_t>(drive.node)) << name << i;
     }
   }
+}
+
+TEST_F(DeviceFileTest, ReadsForHowLongADriveMayLimitItsTorque) {
+  EXPECT_EQ(read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml").bus.limited_time, 0.05);
+  ASSERT_EQ(refusal("drive_delay = 0.0", "drive_delay = 0.0\nlimited_time = 0.2"), "");
+  EXPECT_EQ(read_device_file(file_).bus.limited_time, 0.2);
 }
 
 TEST_F(DeviceFileTest, ReadsTheDrivesDelay) {

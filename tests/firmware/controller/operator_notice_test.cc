@@ -44,6 +44,20 @@ TEST_F(OperatorNoticeTest, SaysOnceThatItWaitsForLongerThanThreeSeconds) {
   }
 }
 
+TEST_F(OperatorNoticeTest, SaysOnceForEachJointThatItsDriveLimitsTheTorque) {
+  const auto line = [](int joint) {
+    return "firmware_session_test: joint " + std::to_string(joint) +
+           ": the drive limits its torque by itself (statusword bit 11), the force is too low; check its current "
+           "limits, supply voltage and temperature\n";
+  };
+  EXPECT_EQ(told(Mode::kRunning, 0), "");
+  report_.limited = 0b1000001;
+  EXPECT_EQ(told(Mode::kRunning, 0), line(1) + line(7));
+  EXPECT_EQ(told(Mode::kRunning, 0), "") << "it is over";
+  report_.limited = 0b1000011;
+  EXPECT_EQ(told(Mode::kRunning, 0), line(2)) << "a limit that comes and goes is told once";
+}
+
 TEST_F(OperatorNoticeTest, CountsTheCyclesOfItsPeriod) {
   for (const auto& [period, waits, behind] : {std::tuple{0.25e-3, 12000u, 1200u}, std::tuple{10e-3, 300u, 30u}}) {
     OperatorNotice notice(report_, period);

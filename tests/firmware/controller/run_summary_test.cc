@@ -55,6 +55,16 @@ const char* const kComputing =
     "computing: p50 2.0 us, p99.9 3.0 us, largest 3.0 us of 3 cycles; longer than loop.compute in 43\n"
     "budget of work: spent in 22 cycles, at most 23 in a row\n";
 
+TEST(RunSummary, TellsOfAnInternalLimitOnlyIfThereWasOne) {
+  RunReport report;
+  CycleCounters counts = counters();
+  const std::string without = run_summary(example(report), counts, 1e-3, "", std::nullopt);
+  EXPECT_EQ(without.find("internal limit"), std::string::npos);
+  counts.limited = 24;
+  const std::string with = run_summary(report, counts, 1e-3, "", std::nullopt);
+  EXPECT_NE(with.find("\ninternal limit of a drive: active in 24 cycles with power\n"), std::string::npos) << with;
+}
+
 TEST(RunSummary, HasEachNumberInItsPlace) {
   RunReport report;
   const std::string text = run_summary(example(report), counters(), 1e-3, "buses: none\n", std::nullopt);

@@ -61,6 +61,30 @@ TEST_F(CycleRecordTest, HasWhatWasReadComputedAndSent) {
 
 /// The wrench of the record is what the arm's torques give at the hand: with the share, while it rises and while it
 /// fades.
+/// Only drives that have power as requested count.
+TEST_F(CycleRecordTest, CountsCyclesInWhichADriveLimitsItsTorque) {
+  make();
+  drives_.reading.limited = {true, false, true};
+  for (int k = 0; k < 100; ++k) step();
+  EXPECT_EQ(record().limited, 0u) << "without power";
+  EXPECT_EQ(counters().limited, 0u);
+  drives_.reading.limited.fill(false);
+  run_to(Mode::kRunning);
+  EXPECT_EQ(counters().limited, 0u);
+  for (int k = 0; k < 20; ++k) {
+    drives_.reading.limited.fill(false);
+    if (k % 2 == 0) drives_.reading.limited = {true, false, false, false, false, false, true};
+    step();
+    EXPECT_EQ(record().limited, k % 2 == 0 ? 0b1000001u : 0u);
+  }
+  EXPECT_EQ(counters().limited, 10u);
+  EXPECT_EQ(record().fault, Fault::kNone);
+  drives_.reading.limited[3] = true;
+  for (int k = 0; k < 51; ++k) step();
+  EXPECT_EQ(record().fault, Fault::kDriveLimited);
+  EXPECT_EQ(cycle_->supervisor().fault_joint(), 3);
+}
+
 TEST_F(CycleRecordTest, HasTheWrenchThatIsRendered) {
   scene_.H_MB.translation = Vector3(0.0, 0.03, 0.0);
   make();

@@ -149,6 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
             Fault::kOverruns, 8},
         Row{"late in turn", [](Observation& o, int k) { (k % 2 == 1 ? o.overrun_ns : o.computed_late_ns) = 1; },
             Fault::kOverruns, 8},
+        Row{"drive limits its torque", [](Observation& o, int) { o.limited[1] = true; }, Fault::kDriveLimited, 51},
         Row{"drive leaves enabled", [](Observation& o, int) { o.drives.all_enabled = false; }, Fault::kDriveLeft, 2},
         Row{"sending fails three times",
             [](Observation& o, int k) { o.sends_failed = static_cast<std::uint32_t>(k - 1); }, Fault::kSendFailed, 4},
@@ -161,6 +162,77 @@ INSTANTIATE_TEST_SUITE_P(
       for (char& c : name) c = c == ' ' ? '_' : c;
       return name;
     });
+
+/// From the first cycle after 50 with the limit on, at the joint with the lowest number.
+TEST(Supervisor, StopsAtTheDriveThatLimitsItsTorqueForTooLong) {
+  for (const std::uint32_t most : {1u, 50u, 200u}) {
+    Supervisor::Parameters p = short_start();
+    p.limited_cycles = most;
+    Bench bench(p);
+    bench.run_to(Mode::kRunning);
+    bench.seen.limited[1] = bench.seen.limited[2] = true;
+    for (std::uint32_t k = 1; k <= most; ++k) ASSERT_EQ(bench.step().share, 1.0) << most << ' ' << k;
+    EXPECT_TRUE(is_stop(bench.step()));
+    EXPECT_EQ(bench.supervisor.fault(), Fault::kDriveLimited);
+    EXPECT_EQ(bench.supervisor.fault_joint(), 1);
+  }
+}
+
+/// A bit that flickers in half of the cycles changes nothing, nor do two drives that take turns.
+TEST(Supervisor, GoesOnWithALimitThatFlickers) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  for (int k = 0; k < 5000; ++k) {
+    bench.seen.limited[0] = k % 2 == 0;
+    bench.seen.limited[1] = k % 80 < 40;
+    bench.seen.limited[2] = k % 80 >= 40;
+    ASSERT_EQ(bench.step().share, 1.0) << k;
+  }
+  bench.seen.limited.fill(false);
+  bench.seen.limited[0] = true;
+  int k = 0;
+  while (bench.supervisor.fault() == Fault::kNone && k < 100) {
+    bench.step();
+    ++k;
+  }
+  EXPECT_LE(k, 51) << "a flicker before does not make it later";
+}
+
+/// Without power, and while brakes open, the bit of a drive may mean anything. A reset begins again.
+TEST(Supervisor, WatchesTheLimitOfADriveOnlyWhileItHasToFollow) {
+  Bench bench;
+  bench.seen.limited.fill(true);
+  bench.seen.enable_switch = false;
+  for (int k = 0; k < 500; ++k) bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kIdle);
+  bench.seen.enable_switch = true;
+  bench.obeys = false;
+  ASSERT_GE(bench.run_to(Mode::kEnabling), 0);
+  for (int k = 0; k < 500; ++k) bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kEnabling);
+  bench.obeys = true;
+  ASSERT_GE(bench.run_to(Mode::kArmed), 0);
+  bench.seen.contact_force = 10.0;  // it stays armed: the limit counts without rendering, too
+  int with_power = 0;
+  while (bench.supervisor.mode() == Mode::kArmed && with_power < 200) {
+    bench.step();
+    ++with_power;
+  }
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kDriveLimited);
+  EXPECT_NEAR(with_power, 51, 1);
+  bench.seen.limited.fill(false);
+  bench.seen.contact_force = 0.0;
+  for (int k = 0; k < 20; ++k) bench.step();
+  ASSERT_EQ(bench.supervisor.mode(), Mode::kStopped);
+  bench.seen.enable_switch = false;
+  bench.seen.reset_requested = true;
+  bench.step();
+  bench.seen.reset_requested = false;
+  bench.seen.enable_switch = true;
+  ASSERT_GE(bench.run_to(Mode::kRunning), 0);
+  bench.seen.limited[0] = true;
+  for (int k = 0; k < 50; ++k) ASSERT_EQ(bench.step().share, 1.0) << k;
+}
 
 /// The first frames still find room in the queue: positions are lost a cycle or two before sending fails.
 TEST(Supervisor, ABusThatTakesNoFramesIsTheFaultNotThePositionsThatItDoesNotBring) {

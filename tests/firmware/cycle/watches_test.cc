@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "firmware/cycle/lateness_watch.h"
+#include "firmware/cycle/limit_watch.h"
 #include "firmware/cycle/observation.h"
 #include "firmware/cycle/rate_watch.h"
 #include "tests/support/random.h"
@@ -36,6 +37,34 @@ TEST(RateWatch, ForgetsAnEventAfterAThousandCycles) {
     for (int i = 0; i < gap; ++i) ASSERT_FALSE(watch.update(i < 10));
     EXPECT_EQ(watch.update(true), gap == 999);
     EXPECT_FALSE(watch.update(false)) << "without an event there is none too many";
+  }
+}
+
+TEST(LimitWatch, FindsALimitThatStays) {
+  for (const std::uint32_t most : {1u, 5u, 50u}) {
+    LimitWatch watch;
+    for (std::uint32_t k = 1; k <= 2 * most; ++k) ASSERT_EQ(watch.update(true, most), k > most) << most << ' ' << k;
+    EXPECT_FALSE(watch.update(false, most)) << "it was not counted beyond the first cycle that is too many";
+    EXPECT_TRUE(watch.update(true, most));
+    watch.reset();
+    for (std::uint32_t k = 1; k <= most; ++k) ASSERT_FALSE(watch.update(true, most));
+  }
+}
+
+/// Of each row `active` cycles are limited and then `free` ones are not: more than half of them are too many in time.
+TEST(LimitWatch, FindsALimitThatFlickersInMoreThanHalfOfTheCycles) {
+  struct Flicker {
+    int active, free;
+    int found;  // cycle; -1: never
+  };
+  // of 2 + 1 cycles one remains: after 48 rows 48, and row 49 reaches 49, 50 and with the next one 51
+  for (const Flicker& flicker : {Flicker{1, 1, -1}, {1, 2, -1}, {49, 49, -1}, {50, 60, -1}, {49, 1, 53}, {2, 1, 149}}) {
+    LimitWatch watch;
+    int found = -1;
+    for (int k = 0; k < 100'000 && found < 0; ++k) {
+      if (watch.update(k % (flicker.active + flicker.free) < flicker.active, 50)) found = k + 1;
+    }
+    EXPECT_EQ(found, flicker.found) << flicker.active << '+' << flicker.free;
   }
 }
 
