@@ -53,21 +53,25 @@ enum class Alarm : std::uint8_t {
   kAnswersLate,       ///< a drive answers one period late
   kPanelLost,         ///< the operator's panel no longer answers
   kPanelSilent,       ///< the operator's panel has not sent its inputs since the start
+  kTooHot,            ///< a drive's temperature is at or above the one that stops the arm
+  kTemperatureLost,   ///< a drive has not answered three requests in a row for its temperature
 };
 
 /// A reading of all joints in SI, at the joint's side of the gear. Entries from the joint count on are zero. A joint
 /// without a fresh sample keeps its last values.
 struct JointReading {
-  JointVector position = JointVector::Zero();   ///< [rad]
-  JointVector torque = JointVector::Zero();     ///< measured by the drive [Nm]
-  std::array<std::uint32_t, kMaxJoints> age{};  ///< cycles since the last sample; 0: fresh
-  std::array<DriveState, kMaxJoints> state{};   ///< power state of each drive
-  std::array<bool, kMaxJoints> limited{};       ///< the drive gives less torque than commanded, by a limit of its own
-  bool emergency_stop = false;                  ///< the emergency stop is pressed, or its line is dead
-  bool enable_switch = false;                   ///< the operator holds the enable switch
-  bool clutch_open = false;                     ///< the operator moves the arm without moving the mesh
-  Alarm alarm = Alarm::kNone;                   ///< the first alarm since the last reset
-  int alarm_joint = -1;                         ///< joint of the alarm; -1: no single joint
+  JointVector position = JointVector::Zero();       ///< [rad]
+  JointVector torque = JointVector::Zero();         ///< measured by the drive [Nm]
+  std::array<std::uint32_t, kMaxJoints> age{};      ///< cycles since the last sample; 0: fresh
+  std::array<DriveState, kMaxJoints> state{};       ///< power state of each drive
+  std::array<bool, kMaxJoints> warm{};              ///< the drive's temperature is at or above its warning
+  std::array<bool, kMaxJoints> temperature_lost{};  ///< the last request for the drive's temperature was not answered
+  std::array<bool, kMaxJoints> limited{};  ///< the drive gives less torque than commanded, by a limit of its own
+  bool emergency_stop = false;             ///< the emergency stop is pressed, or its line is dead
+  bool enable_switch = false;              ///< the operator holds the enable switch
+  bool clutch_open = false;                ///< the operator moves the arm without moving the mesh
+  Alarm alarm = Alarm::kNone;              ///< the first alarm since the last reset
+  int alarm_joint = -1;                    ///< joint of the alarm; -1: no single joint
 };
 
 /// A command to all joints.

@@ -17,7 +17,7 @@ enum class BusFaultKind : std::uint8_t {
   kEmergency,          ///< `node` sends an emergency message with the code `value`
   kNodeReset,          ///< `node` restarts by itself
   kHeartbeatStops,     ///< `node` sends no heartbeat
-  kSdoRefused,         ///< `node` aborts each SDO transfer with the code `value`
+  kSdoRefused,         ///< `node` aborts each SDO transfer with the code `value`, or those of `index` if it is not 0
   kParameterChanged,   ///< object `index`:`sub` of `node` becomes `value`
   kBusOff,             ///< the controller becomes and stays bus-off
   kInterfaceDown,      ///< the controller's interface is down in these cycles

@@ -73,7 +73,7 @@ void CanDevice::apply_to_node(const BusFault& fault, CanopenNode& node) noexcept
       if (changes) node.mute_heartbeat(begins);
       break;
     case BusFaultKind::kSdoRefused:
-      if (changes) node.refuse_sdo(begins ? static_cast<SdoAbort>(value) : SdoAbort::kNone);
+      if (changes) node.refuse_sdo(begins ? static_cast<SdoAbort>(value) : SdoAbort::kNone, fault.index);
       break;
     case BusFaultKind::kParameterChanged:
       if (begins) node.objects().set(fault.index, fault.sub, value);

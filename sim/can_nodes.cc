@@ -69,6 +69,8 @@ void CanNodes::begin_cycle() noexcept {
     if (fault(FaultKind::kDriveDisabled, i) != nullptr) drive.disable(now_ns());
     const DriveFault* slip = fault(FaultKind::kModeSlips, i);
     drive.slip_mode(slip == nullptr ? hal::canopen::kModeTorque : static_cast<std::int8_t>(slip->value));
+    const DriveFault* heat = fault(FaultKind::kTemperature, i);
+    if (heat != nullptr) drive.set_temperature(heat->value);
     const DriveFault* limit = fault(FaultKind::kTorqueLimited, i);
     drive.set_own_limit(limit == nullptr ? std::numeric_limits<double>::infinity() : limit->value);
     const DriveFault* jump = fault(FaultKind::kEncoderJump, i);

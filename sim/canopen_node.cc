@@ -345,10 +345,11 @@ void CanopenNode::on_sdo(const hal::CanFrame& request, std::int64_t now_ns) noex
   hal::CanFrame response = frame_of(static_cast<std::uint16_t>(kCobSdoResponse + number_), 8);
   std::copy_n(request.data.begin() + 1, 3, response.data.begin() + 1);
   SdoAbort abort = SdoAbort::kCommand;
-  if (refusal_ != SdoAbort::kNone) {
+  const auto index = static_cast<std::uint16_t>(get(request, 1, 2));
+  if (refusal_ != SdoAbort::kNone && (refused_index_ == 0 || refused_index_ == index)) {
     abort = refusal_;
   } else if ((request.data[0] & kSpecifier) == kUpload) {
-    abort = upload(static_cast<std::uint16_t>(get(request, 1, 2)), request.data[3], response);
+    abort = upload(index, request.data[3], response);
   } else if ((request.data[0] & kSpecifier) == kDownload) {
     response.data[0] = 0x60;
     abort = download(request, now_ns);

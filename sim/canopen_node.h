@@ -95,7 +95,11 @@ class CanopenNode {
   void ignore_deadline() noexcept {
     deadline_ignored_ = true;
   }  ///< the RPDO has no deadline, whatever its object contains
-  void refuse_sdo(SdoAbort with) noexcept { refusal_ = with; }  ///< aborts every request from now on; kNone: none
+  /// Aborts every request from now on, or those for an object; kNone: none.
+  void refuse_sdo(SdoAbort with, std::uint16_t index = 0) noexcept {
+    refusal_ = with;
+    refused_index_ = index;
+  }
 
  protected:
   /// `fd`: PDOs are FD frames. The device adds its objects beyond 1FFF in its own constructor.
@@ -166,6 +170,7 @@ class CanopenNode {
   bool heartbeat_muted_ = false;
   bool deadline_ignored_ = false;
   SdoAbort refusal_ = SdoAbort::kNone;
+  std::uint16_t refused_index_ = 0;  // 0: all
   std::array<hal::CanFrame, kOutbox> outbox_{};
   std::size_t first_ = 0;
   std::size_t count_ = 0;

@@ -20,6 +20,20 @@ JointHardwareParameters with_steps(JointHardwareParameters joint, const hal::Dri
 /// Value of 6085. It only must not be zero: the drive's own loop brings the joint to rest, without a ramp.
 constexpr std::uint32_t kQuickStopCounts = 1'000'000;
 
+hal::DriveConfig with_temperature(hal::DriveConfig config) noexcept {
+  if (!config.temperature.exists()) config.temperature = kUsualTemperature;
+  return config;
+}
+
+ObjectEntry temperature_entry(const hal::TemperatureConfig& config) noexcept {
+  using enum ObjectType;
+  const ObjectType type = config.size == 1   ? config.is_signed ? kI8 : kU8
+                          : config.size == 2 ? config.is_signed ? kI16 : kU16
+                          : config.is_signed ? kI32
+                                             : kU32;
+  return {config.index, config.subindex, type, ObjectAccess::kReadOnly, Mapping::kNo, 0};
+}
+
 std::uint32_t rounded(double value) noexcept { return static_cast<std::uint32_t>(std::llround(value)); }
 
 }  // namespace
@@ -39,7 +53,9 @@ const char* name(PowerState state) noexcept {
 }
 
 Cia402Slave::Cia402Slave(const hal::DriveConfig& config, const JointHardwareParameters& joint, bool fd) noexcept
-    : CanopenNode(config.node, kServoDrive, 255, fd), config_(config), motor_(with_steps(joint, config)) {
+    : CanopenNode(config.node, kServoDrive, 255, fd),
+      config_(with_temperature(config)),
+      motor_(with_steps(joint, config)) {
   using enum ObjectType;
   using enum ObjectAccess;
   const double torque_unit = 1e-3 * config.gear * config.rated_torque;  // torque of a permille [Nm]
@@ -51,6 +67,7 @@ Cia402Slave::Cia402Slave(const hal::DriveConfig& config, const JointHardwarePara
   objects().set_initial(kTpdo1Mapping, 1, 0x6041'0010);
   for (const ObjectEntry& entry : {
            ObjectEntry{kTripObject, 0, kU16, kWriteOnly, Mapping::kNo, 0},
+           temperature_entry(config_.temperature),
            {kAbortConnectionOption, 0, kI16, kReadWrite, Mapping::kNo, 1},
            {kErrorCode, 0, kU16, kReadOnly, Mapping::kNo, 0},
            {kControlword, 0, kU16, kReadWrite, Mapping::kFromNetwork, 0},
@@ -129,6 +146,8 @@ void Cia402Slave::sample() noexcept {
   const double torque = motor_.torque() / motor_.parameters().torque_step;
   const auto position = static_cast<std::uint32_t>(counts);
   objects().set(kStatusword, 0, statusword());
+  const hal::TemperatureConfig& heat = config_.temperature;
+  objects().set(heat.index, heat.subindex, rounded(temperature_ / heat.scale));
   objects().set(kModeDisplay, 0, static_cast<std::uint8_t>(mode_display()));
   objects().set(kPosition, 0, polarity(7) ? 0u - position : position);
   objects().set(kVelocity, 0, rounded(polarity(6) ? -speed : speed));

@@ -31,6 +31,9 @@ inline constexpr std::uint16_t kRunsAway = 0x8400;
 /// A written value makes the drive trip with this error code: for tests over the bus.
 inline constexpr std::uint16_t kTripObject = 0x2000;
 
+/// The temperature object of a drive whose layout has none: tenths of a degree, 16 bits, signed.
+inline constexpr hal::TemperatureConfig kUsualTemperature{.index = 0x2310, .scale = 0.1};
+
 /// A CiA 402 servo drive with one mode, 10, cyclic synchronous torque, on a joint's motor, brake and encoder. Real-time
 /// safe.
 ///
@@ -63,6 +66,9 @@ class Cia402Slave final : public CanopenNode {
   /// The drive shows another mode in 6061 and ignores the torque, while bit 12 of the statusword stays. kModeTorque
   /// ends it.
   void slip_mode(std::int8_t mode) noexcept;
+
+  /// The temperature that the drive tells [degC]; 30 at first.
+  void set_temperature(double celsius) noexcept { temperature_ = celsius; }
 
   /// The drive's own limit of its torque at the joint [Nm], as by current or heat. Bit 11 of the statusword shows it
   /// while it clips. At first infinite.
@@ -100,6 +106,7 @@ class Cia402Slave final : public CanopenNode {
   std::uint64_t commands_ = 0;
   std::uint64_t trips_ = 0;
   bool limited_ = false;  ///< the commanded torque is above 6072, 60E0, 60E1 or the own limit
+  double temperature_ = 30.0;
   double own_limit_ = std::numeric_limits<double>::infinity();
   double position_ = 0.0;
   double velocity_ = 0.0;

@@ -15,6 +15,7 @@ enum class FaultKind : std::uint8_t {
   kDriveTrips,        ///< the drive trips: kFault
   kDriveDisabled,     ///< the drive switches off without a request
   kModeSlips,      ///< the drive reports mode `value` and ignores the torque, with the same statusword; CAN drives only
+  kTemperature,    ///< the drive's temperature becomes `value` [degC] and stays so; CAN drives only
   kTorqueLimited,  ///< the drive gives at most `value` [Nm at the joint]; over CAN it shows its internal limit, too
   kSendFails,      ///< `send` returns false; the joint's command is lost
   kCommandLost,    ///< `send` returns true; the joint's command is lost

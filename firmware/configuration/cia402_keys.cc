@@ -55,6 +55,37 @@ hal::DriveIdentity read_identity(const TomlTable& table) {
   return identity;
 }
 
+/// Sets size and sign of the object from a name such as "i16".
+void read_type(const TomlTable& table, hal::TemperatureConfig& temperature) {
+  const std::string type = table.text("type", "i16");
+  for (const int size : {1, 2, 4}) {
+    for (const char sign : {'i', 'u'}) {
+      if (type != fmt::format("{}{}", sign, 8 * size)) continue;
+      temperature.size = size;
+      temperature.is_signed = sign == 'i';
+      return;
+    }
+  }
+  table.complain("type", fmt::format("= \"{}\" is not known; it must be i8, i16, i32, u8, u16 or u32", type));
+}
+
+hal::TemperatureConfig read_temperature(const TomlTable& table) {
+  constexpr TomlTable::Range kCelsius{-40.0, 300.0};
+  hal::TemperatureConfig temperature;
+  if (!table.present()) return temperature;
+  table.allow({"object", "sub", "type", "scale", "warn", "stop"});
+  temperature.index = static_cast<std::uint16_t>(table.whole_number("object", {0x2001, 0x5FFF}));
+  temperature.subindex = static_cast<std::uint8_t>(table.whole_number("sub", {0, 254}, 0));
+  read_type(table, temperature);
+  temperature.scale = table.number("scale", {1e-6, 1e3}, temperature.scale);
+  temperature.warn = table.number("warn", kCelsius);
+  temperature.stop = table.number("stop", kCelsius);
+  if (temperature.stop <= temperature.warn) {
+    table.complain("stop", fmt::format("= {:g} must be above warn = {:g}", temperature.stop, temperature.warn));
+  }
+  return temperature;
+}
+
 /// Refuses a serial number that another joint's drive has: two drives of a product never share it.
 void check_serial(const TomlTable& joint, const hal::BusLayout& bus, std::size_t index) {
   const hal::DriveIdentity& own = bus.drives[index].identity;
@@ -131,6 +162,7 @@ hal::DriveConfig read_drive(const TomlTable& table, const ArmJoint& joint) {
   if (std::fabs(drive.sign) != 1.0) table.complain("sign", "must be 1 or -1");
   drive.zero = table.number("zero", {-4.0 * std::numbers::pi, 4.0 * std::numbers::pi});
   drive.identity = read_identity(table.inner("identity"));
+  drive.temperature = read_temperature(table.inner("temperature"));
   require_unambiguous(table, joint, drive);
   // 6071 and 6077 are 16 bit numbers of permille of the rated torque: up to 32 times it
   const double share = joint.torque / (drive.gear * drive.rated_torque);

@@ -15,7 +15,7 @@ void set_usual_times(hal::BusLayout& bus);
 void read_bus(const files::TomlTable& table, hal::BusLayout& bus);
 
 /// Reads the keys of a `[[joint]]` that describe its CiA 402 drive: bus, node, counts, gear, rated_torque, sign, zero,
-/// identity.
+/// identity, temperature.
 /// `joint`: read before. Throws as `read_device_file`.
 hal::DriveConfig read_drive(const files::TomlTable& table, const ArmJoint& joint);
 

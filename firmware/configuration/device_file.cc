@@ -73,7 +73,8 @@ void read_joint(const TomlTable& table, std::size_t index, Device& device) {
                "rated_torque",
                "sign",
                "zero",
-               "identity"});
+               "identity",
+               "temperature"});
   ArmJoint& joint = device.model.joints[index];
   joint.a = table.number("a", kLength);
   joint.alpha = table.number("alpha", kAngle);

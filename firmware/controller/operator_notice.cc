@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -26,6 +27,15 @@ std::string why(const Standing& standing) {
   return joint + describe(standing.alarm);
 }
 
+/// Prints a line for each joint that is noted and was not in `said`, and notes it there.
+void say_of_joints(std::atomic<std::uint8_t>& noted, std::uint8_t& said, const char* what) {
+  const std::uint8_t joints = noted.exchange(0, std::memory_order_relaxed);
+  for (int i = 0; i < kMaxJoints; ++i) {
+    if (((joints & ~said) >> i & 1) != 0) warn(fmt::format("joint {}: {}", i + 1, what));
+  }
+  said = static_cast<std::uint8_t>(said | joints);
+}
+
 }  // namespace
 
 void OperatorNotice::look() {
@@ -45,15 +55,13 @@ void OperatorNotice::look() {
                     kMoreTime));
   }
   said_behind_ = is_behind;
-  const auto limited = report_.limited.exchange(0, std::memory_order_relaxed);
-  for (int i = 0; i < kMaxJoints; ++i) {
-    if (((limited & ~said_limited_) >> i & 1) == 0) continue;
-    warn(
-        fmt::format("joint {}: the drive limits its torque by itself (statusword bit 11), the force is too low; check "
-                    "its current limits, supply voltage and temperature",
-                    i + 1));
-  }
-  said_limited_ = static_cast<std::uint8_t>(said_limited_ | limited);
+  say_of_joints(report_.limited, said_limited_,
+                "the drive limits its torque by itself (statusword bit 11), the force is too low; check its current "
+                "limits, supply voltage and temperature");
+  say_of_joints(report_.warm, said_warm_,
+                "the drive is warmer than temperature.warn; let it rest, or the arm stops at temperature.stop");
+  say_of_joints(report_.temperature_lost, said_lost_,
+                "the drive did not answer for its temperature; the arm stops if it stays so");
   const bool stopped = standing.mode == Mode::kStopped && !refuses_to_start(standing.fault);
   if (stopped && !said_stopped_) {
     warn(fmt::format("stopped: {}; to go on, release enable switch and emergency stop, then kill -USR1 {}",

@@ -52,6 +52,10 @@ std::string run_summary(const RunReport& report, const CycleCounters& counters, 
   if (counters.limited > 0) {
     fmt::format_to(out, "internal limit of a drive: active in {} cycles with power\n", counters.limited);
   }
+  if (counters.warm + counters.temperature_lost > 0) {
+    fmt::format_to(out, "temperature of a drive: above temperature.warn in {} cycles, not answered in {}\n",
+                   counters.warm, counters.temperature_lost);
+  }
   if (page_faults) {
     fmt::format_to(out, "round trip: {}\n", quantiles(report.round_trip));
     fmt::format_to(out, "waking late: {}\n", quantiles(report.loop.lateness));

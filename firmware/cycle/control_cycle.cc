@@ -4,6 +4,17 @@
 
 namespace godobject::firmware {
 
+namespace {
+
+std::uint8_t joint_bits(const std::array<bool, kMaxJoints>& flags) noexcept {
+  static_assert(kMaxJoints <= 8);
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < flags.size(); ++i) bits |= flags[i] ? 1u << i : 0u;
+  return static_cast<std::uint8_t>(bits);
+}
+
+}  // namespace
+
 ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept
     : setup_(setup),
       drives_(drives),
@@ -183,13 +194,12 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
 
 /// Returns the drives that are enabled as requested and limit their torque, one bit a joint.
 std::uint8_t ControlCycle::limited_drives(hal::PowerRequest power) const noexcept {
-  static_assert(kMaxJoints <= 8);
-  unsigned drives = 0;
+  std::array<bool, kMaxJoints> limited{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(setup_.arm->joint_count); ++i) {
     const bool enabled = power == hal::PowerRequest::kEnable && reading_.state[i] == hal::DriveState::kEnabled;
-    if (enabled && reading_.limited[i]) drives |= 1u << i;
+    limited[i] = enabled && reading_.limited[i];
   }
-  return static_cast<std::uint8_t>(drives);
+  return joint_bits(limited);
 }
 
 void ControlCycle::keep(const Decision& decision) noexcept {
@@ -214,6 +224,8 @@ void ControlCycle::keep(const Decision& decision) noexcept {
   record_.contacts = report_.contacts;
   record_.lost = positions_.lost;
   record_.limited = limited_drives(decision.power);
+  record_.warm = joint_bits(reading_.warm);
+  record_.temperature_lost = joint_bits(reading_.temperature_lost);
   record_.clutch_is_open = clutch_is_open_;
   record_.outcome = report_.outcome;
 }
@@ -233,6 +245,8 @@ void ControlCycle::count(const LoopEvents& events) noexcept {
   counters_.rate_limited += add(limiter_.rate_limited());
   counters_.unconverged += add(rendering && report_.unconverged);
   counters_.limited += add(record_.limited != 0);
+  counters_.warm += add(record_.warm != 0);
+  counters_.temperature_lost += add(record_.temperature_lost != 0);
   record_.behind = rendering && report_.out_of_work ? record_.behind + 1 : 0;
   counters_.out_of_work += add(record_.behind > 0);
   counters_.most_out_of_work = std::max<std::uint64_t>(counters_.most_out_of_work, record_.behind);

@@ -44,6 +44,8 @@ struct CycleCounters {
   std::uint64_t unconverged = 0;       ///< cycles in which the friction solver did not converge
   std::uint64_t out_of_work = 0;       ///< cycles that the budget of work ended
   std::uint64_t most_out_of_work = 0;  ///< the most of them in a row
+  std::uint64_t warm = 0;              ///< cycles in which a drive was warm
+  std::uint64_t temperature_lost = 0;  ///< cycles in which the last request for a drive's temperature was not answered
   std::uint64_t limited = 0;           ///< cycles with power in which a drive limited its torque by itself
 };
 
@@ -54,6 +56,8 @@ struct CycleRecord {
   hal::Alarm alarm = hal::Alarm::kNone;
   int alarm_joint = -1;
   Status status = Status::kOk;
+  std::uint8_t warm = 0;                     ///< drives that are warm, one bit a joint
+  std::uint8_t temperature_lost = 0;         ///< drives that did not answer for their temperature, one bit a joint
   JointVector q = JointVector::Zero();       ///< checked [rad]
   JointVector qd = JointVector::Zero();      ///< [rad/s]
   JointVector torque = JointVector::Zero();  ///< sent [Nm]

@@ -35,15 +35,12 @@ const char* describe(Fault fault) noexcept {
              "godobject-controller doctor";
     case Fault::kNotBalanced:
       return "the arm moved or was pushed while it engaged; keep the hand off it until it renders, or correct masses "
-             "and "
-             "payload in the device file";
+             "and payload in the device file";
     case Fault::kDrifts:
-      return "the arm drifted as a wrong load moves it; correct masses and payload in the device file, and hold the "
-             "tool";
+      return "the arm drifted as a wrong load moves it; correct masses and payload in the device file, and hold it";
     case Fault::kTorqueWrong:
       return "a drive's measured torque does not follow its command; read its own error display, check rated_torque "
-             "and "
-             "its current limits";
+             "and its current limits";
     case Fault::kDriveLimited:
       return "the drive limited its torque by itself for longer than bus.limited_time (statusword bit 11); check its "
              "current limits, supply voltage and temperature, or lower the joint's torque in the device file";
@@ -72,6 +69,10 @@ const char* describe(hal::Alarm alarm) noexcept {
     case hal::Alarm::kPanelLost: return "the operator's panel no longer answers; check its wiring";
     case hal::Alarm::kPanelSilent:
       return "the operator's panel has not sent its inputs since the start; check that it answers SYNC with its TPDO1";
+    case hal::Alarm::kTooHot: return "the drive is too hot; let it cool down, then reset";
+    case hal::Alarm::kTemperatureLost:
+      return "the drive did not answer three requests in a row for its temperature; compare temperature in the device "
+             "file with the drive's manual, check wiring and bus load";
   }
   return "unknown alarm";
 }

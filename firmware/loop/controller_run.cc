@@ -18,7 +18,12 @@ void watch(const CycleRecord& record, RunReport& report) noexcept {
   if (record.behind > report.longest_behind.load(std::memory_order_relaxed)) {
     report.longest_behind.store(record.behind, std::memory_order_relaxed);
   }
-  if (record.limited != 0) report.limited.fetch_or(record.limited, std::memory_order_relaxed);
+  const auto note = [](std::uint8_t joints, std::atomic<std::uint8_t>& noted) {
+    if (joints != 0) noted.fetch_or(joints, std::memory_order_relaxed);
+  };
+  note(record.limited, report.limited);
+  note(record.warm, report.warm);
+  note(record.temperature_lost, report.temperature_lost);
   const Standing standing{record.mode, record.fault, record.alarm, static_cast<std::int8_t>(record.alarm_joint)};
   report.standing.store(standing, std::memory_order_relaxed);
   ++report.in_mode[static_cast<std::size_t>(record.mode)];

@@ -49,7 +49,9 @@ struct RunReport {
   std::atomic<std::uint32_t> longest_behind{0};
   /// Drives that limited their torque since another thread has set it to 0, one bit a joint.
   std::atomic<std::uint8_t> limited{0};
-  std::atomic<Standing> standing{};  ///< of the last cycle; other threads may read it
+  std::atomic<std::uint8_t> warm{0};              ///< the same for warm drives
+  std::atomic<std::uint8_t> temperature_lost{0};  ///< the same for drives that did not answer for their temperature
+  std::atomic<Standing> standing{};               ///< of the last cycle; other threads may read it
 };
 
 /// True if the fault ends the run: a fault that was found before rendering does not go away by a reset.

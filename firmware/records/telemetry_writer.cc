@@ -20,7 +20,7 @@ std::string header(int joint_count) {
   for (const char* frame : {"d", "g"}) {  // device pose and god object, with the column names of godobject-replay
     text += fmt::format(",{0}px_m,{0}py_m,{0}pz_m,{0}qw,{0}qx,{0}qy,{0}qz", frame);
   }
-  return text + ",fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m,drives_limited\n";
+  return text + ",fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m,drives_limited,drives_warm\n";
 }
 
 /// Appends a comma and each value, as printf's %.*g would write it. A row has some fifty values, and std::to_chars is
@@ -56,7 +56,9 @@ void append(std::string& text, const TelemetryRecord& record, int joint_count) {
   append(text, cycle.F_G_R.force, 6);
   append(text, cycle.F_G_R.torque, 6);
   append(text, std::array{cycle.penetration, cycle.absorbed, cycle.injected_damping}, 6);
-  append(text, std::array{static_cast<double>(std::popcount(cycle.limited))});
+  const auto warm = static_cast<std::uint8_t>(cycle.warm | cycle.temperature_lost);
+  append(text, std::array<double, 2>{static_cast<double>(std::popcount(cycle.limited)),
+                                     static_cast<double>(std::popcount(warm))});
   text += '\n';
 }
 

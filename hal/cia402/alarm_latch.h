@@ -16,6 +16,8 @@ struct AlarmDetail {
   std::uint8_t subindex = 0;   ///< of the object
   std::uint32_t expected = 0;  ///< value of the object
   std::uint32_t found = 0;  ///< value found; kDriveError: the emergency code; kWrongMode without object: the NMT state
+  double celsius = 0.0;     ///< kTooHot: temperature [degC]
+  double most_celsius = 0.0;  ///< kTooHot: temperature that stops the arm [degC]
 };
 
 /// Latches the first alarm until it is reset. Alarms that only a new start can cure stay over a reset: a drive has

@@ -64,6 +64,7 @@ class BringUp {
   bool start_all() noexcept;
 
   bool check_ratio(int station, std::uint16_t index, double expected, double or_this) noexcept;
+  bool check_temperature(int joint) noexcept;
   bool do_step(int station, const ParameterStep& step) noexcept;
   bool exchange(int station, const CanFrame& request) noexcept;
   bool send(int bus, const CanFrame& frame) noexcept;
@@ -263,6 +264,18 @@ bool BringUp::check_ratio(int station, std::uint16_t index, double expected, dou
   return fail_at(BringUpStatus::kWrongRatio, station);
 }
 
+bool BringUp::check_temperature(int joint) noexcept {
+  constexpr std::uint32_t kAny = 0;  // mask
+  const TemperatureConfig& config = layout_.drives[static_cast<std::size_t>(joint)].temperature;
+  if (!config.exists()) return true;
+  const ParameterStep step{Kind::kExpect, config.index, config.subindex, config.size, 0, kAny};
+  if (!do_step(joint, step)) return false;
+  result_.celsius = celsius(config, response_.value);
+  result_.most_celsius = config.stop;
+  if (result_.celsius < config.stop) return true;
+  return fail_at(BringUpStatus::kTooHot, joint);
+}
+
 bool BringUp::set_up(int station) noexcept {
   cia402::ParameterSteps steps;
   bool done = true;
@@ -283,6 +296,7 @@ bool BringUp::set_up(int station) noexcept {
     done = do_step(station, all[i]);
     lacks[i] = absent_;
   }
+  done = done && (station == kPanelStation || check_temperature(station));
   step_ = nullptr;
   return done;
 }
@@ -422,6 +436,7 @@ const char* describe(BringUpStatus status) noexcept {
       return "the drives of two joints are swapped, or their cables or node numbers; swap them back, or correct "
              "identity "
              "in the device file";
+    case BringUpStatus::kTooHot: return "is too hot; let it cool down, then start again";
     case BringUpStatus::kNoIdentity:
       return "does not have a part of its identity that the device file names; delete that key of identity";
   }

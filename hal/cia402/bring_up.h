@@ -30,6 +30,7 @@ enum class [[nodiscard]] BringUpStatus : std::uint8_t{
     kWrongDrive,      ///< a field of the identity is `found` in place of `expected`
     kDriveElsewhere,  ///< as kWrongDrive, and the expected drive answers as that of joint `other_joint`
     kDrivesSwapped,   ///< as kDriveElsewhere, and that joint's expected drive answers here
+    kTooHot,          ///< a drive's temperature is `celsius`, at or above `most_celsius`
     kNoIdentity,      ///< a drive lacks a field of the identity that the layout gives: `expected`
 };
 
@@ -46,8 +47,10 @@ struct BringUpResult {
   std::uint32_t found = 0;
   double ratio_expected = 0.0;
   double ratio_found = 0.0;
-  bool began = false;    ///< a frame was sent
-  int other_joint = -1;  ///< joint at which the expected drive answers; -1: at none
+  double celsius = 0.0;       ///< [degC]
+  double most_celsius = 0.0;  ///< [degC]
+  bool began = false;         ///< a frame was sent
+  int other_joint = -1;       ///< joint at which the expected drive answers; -1: at none
 };
 
 /// The status as one clause with the cure, without the numbers. Never null.
@@ -60,7 +63,8 @@ const char* describe(BringUpStatus status) noexcept;
 /// and read back each node by SDO (cia402/parameters.h); start the nodes; wait until each is operational and each drive
 /// has sent its mode by TPDO2. Nothing is written to a drive before all identities are right. This takes 0.15 s plus
 /// 0.1 s a node if nodes answer within a millisecond. Encoder resolution (608F) and gear (6091) of drives that have
-/// them must equal the layout's `counts` and `gear`; 6091 may be 1, for a gear that the drive does not know of.
+/// them must equal the layout's `counts` and `gear`; 6091 may be 1, for a gear that the drive does not know of. A drive
+/// must answer for its temperature, if the layout has one, and be cooler than the temperature that stops the arm.
 ///
 /// `buses`: one for each bus of the layout. `tap`: may be null. `end`: the start ends within a millisecond after it
 /// became true; may be null. Sleeps in steps of a millisecond. Does not allocate or throw.

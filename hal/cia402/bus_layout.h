@@ -5,6 +5,7 @@
 
 #include "core/device/joint_vector.h"
 #include "hal/cia402/drive_identity.h"
+#include "hal/cia402/temperature.h"
 
 namespace godobject::hal {
 
@@ -15,15 +16,16 @@ inline constexpr int kMaxBuses = 8;
 /// Joint position [rad] = zero + sign * 2 pi * (6064) / (counts * gear); joint torque [Nm] = sign * gear * rated *
 /// (6077) / 1000.
 struct DriveConfig {
-  int bus = 0;                ///< index of its bus
-  int node = 1;               ///< 1 to 126, unique on its bus
-  double counts = 1 << 20;    ///< counts of 6064 a turn of the motor
-  double gear = 1.0;          ///< turns of the motor a turn of the joint
-  double rated_torque = 0.0;  ///< of the motor [Nm]; must be equal to 6076 of the drive
-  double torque_limit = 0.0;  ///< largest commanded torque of the joint [Nm]
-  double sign = 1.0;          ///< -1: the motor turns against the joint's direction
-  double zero = 0.0;          ///< position of the joint where 6064 is 0 [rad]
-  DriveIdentity identity{};   ///< expected of the drive; a start compares each field that is given
+  int bus = 0;                      ///< index of its bus
+  int node = 1;                     ///< 1 to 126, unique on its bus
+  double counts = 1 << 20;          ///< counts of 6064 a turn of the motor
+  double gear = 1.0;                ///< turns of the motor a turn of the joint
+  double rated_torque = 0.0;        ///< of the motor [Nm]; must be equal to 6076 of the drive
+  double torque_limit = 0.0;        ///< largest commanded torque of the joint [Nm]
+  double sign = 1.0;                ///< -1: the motor turns against the joint's direction
+  double zero = 0.0;                ///< position of the joint where 6064 is 0 [rad]
+  DriveIdentity identity{};         ///< expected of the drive; a start compares each field that is given
+  TemperatureConfig temperature{};  ///< read about once a second
 };
 
 /// The operator's panel: a CiA 401 input module that answers each SYNC with 6000:1, see object_numbers.h. Cycles

@@ -115,7 +115,10 @@ void CanDrives::request() noexcept {
 void CanDrives::receive(JointReading& reading) noexcept {
   for (int bus = 0; bus < layout_.bus_count; ++bus) drain(bus);
   check_health();
-  for (int i = 0; i < layout_.joint_count; ++i) close_joint(i);
+  for (int i = 0; i < layout_.joint_count; ++i) {
+    close_joint(i);
+    check_temperature(i);
+  }
   if (layout_.panel.bus >= 0) close_panel();
   if (layout_.answer > 0.0) send_heartbeat_or_sdo();
   reading_.alarm = alarm_.first().alarm;
@@ -137,6 +140,27 @@ void CanDrives::check_health() noexcept {
       statistics_.longest_round_trip_ns = std::max(statistics_.longest_round_trip_ns, statistics_.round_trip_ns);
     }
   }
+}
+
+void CanDrives::check_temperature(int i) noexcept {
+  const auto at = static_cast<std::size_t>(i);
+  const int bus = stations_.bus(i);
+  const cia402::TemperatureWatch& watch = buses_[static_cast<std::size_t>(bus)].watch.temperature(i);
+  const TemperatureConfig& config = watch.config();
+  if (!config.exists()) return;
+  reading_.warm[at] = watch.is_warm();
+  reading_.temperature_lost[at] = watch.is_lost();
+  if (statistics_.hottest_joint < 0 ? watch.celsius() > -1e9 : watch.celsius() > statistics_.hottest) {
+    statistics_.hottest = watch.celsius();
+    statistics_.hottest_joint = i;
+  }
+  alarm_.raise({.alarm = watch.alarm(),
+                .bus = bus,
+                .joint = i,
+                .index = config.index,
+                .subindex = config.subindex,
+                .celsius = watch.celsius(),
+                .most_celsius = config.stop});
 }
 
 void CanDrives::drain(int b) noexcept {

@@ -42,8 +42,9 @@ namespace godobject::hal {
 /// Alarms: see `Alarm`; `alarm_detail` gives the cause. Frames of other nodes: SYNC, RPDOs, the controller's heartbeat
 /// and SDO reads raise kForeignMaster, NMT and SDO writes kForeignWrite. An emergency message raises an alarm unless
 /// canopen::is_warning. Five unanswered requests in a row to a drive for its watched parameters raise
-/// kParameterChanged. PowerRequest kReset clears the alarm when it begins, but not kNodeReset, kForeignWrite,
-/// kParameterChanged and kAnswersLate, which need a new start.
+/// kParameterChanged. A drive's temperature is read with them, about once a second: kTooHot, and kTemperatureLost after
+/// three requests without an answer, last as long as their cause. PowerRequest kReset clears the alarm when it begins,
+/// but not kNodeReset, kForeignWrite, kParameterChanged and kAnswersLate, which need a new start.
 ///
 /// All functions but `bring_up` and `stop_nodes` are real-time safe. Cost without the bus objects: 1 us a cycle with
 /// seven joints.
@@ -118,6 +119,7 @@ class CanDrives final : public JointDrives {
   Joint& joint(int i) noexcept { return joints_[static_cast<std::size_t>(i)]; }
   SendResult send_on(int bus, const CanFrame& frame) noexcept;
   void check_health() noexcept;
+  void check_temperature(int joint) noexcept;
   void drain(int bus) noexcept;
   void take_own(Bus& bus, const ReceivedFrame& received) noexcept;
   void take(int bus, const ReceivedFrame& received) noexcept;

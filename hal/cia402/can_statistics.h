@@ -20,6 +20,8 @@ struct CanStatistics {
   std::array<std::uint64_t, kMaxJoints> late{};  ///< samples after their cycle, not used
   std::int64_t round_trip_ns = 0;  ///< last cycle: from the end of SYNC to the end of the last sample; 0: none
   std::int64_t longest_round_trip_ns = 0;
+  double hottest = 0.0;    ///< highest temperature of a drive [degC]
+  int hottest_joint = -1;  ///< -1: no drive has told one
 };
 
 }  // namespace godobject::hal

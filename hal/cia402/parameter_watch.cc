@@ -24,31 +24,53 @@ ParameterWatch::ParameterWatch(const BusLayout& layout, int bus) noexcept
     joints_[static_cast<std::size_t>(joint_count_)] = joint;
     nodes_[static_cast<std::size_t>(joint_count_)] = drive.node;
     ++joint_count_;
+    temperatures_[static_cast<std::size_t>(joint)] = TemperatureWatch(drive.temperature);
+    if (drive.temperature.exists()) steps_of_round_ = kWatchedCount + 1;
   }
 }
 
 void ParameterWatch::find(Alarm alarm, const SdoResponse& response) noexcept {
   if (finding_.alarm != Alarm::kNone) return;
-  const ParameterStep& step = steps_[step_];
+  const ParameterStep step = asks_for_temperature() ? ParameterStep() : steps_[step_];
   finding_ = {alarm, bus_, joints_[drive_], 0, step.index, step.subindex, step.value, response.value};
 }
 
 int ParameterWatch::interval(int wanted) const noexcept {
-  return std::min(wanted, std::max(1, within_ / std::max(1, static_cast<int>(kWatchedCount) * joint_count_)));
+  return std::min(wanted, std::max(1, within_ / std::max(1, static_cast<int>(steps_of_round_) * joint_count_)));
+}
+
+void ParameterWatch::take_temperature(const SdoResponse& response) noexcept {
+  const TemperatureConfig& config = asked_temperature().config();
+  if (!waits_ || response.node != nodes_[drive_] || response.index != config.index ||
+      response.subindex != config.subindex) {
+    return;
+  }
+  waits_ = false;
+  silent_[drive_] = 0;
+  asked_temperature().take(response);
 }
 
 bool ParameterWatch::next(CanFrame& request) noexcept {
   if (joint_count_ == 0) return false;
+  if (waits_ && asks_for_temperature()) asked_temperature().miss();
   if (waits_ && ++silent_[drive_] >= kMostSilent) find(Alarm::kParameterChanged, SdoResponse());
-  // the same parameter of all drives, then the next one: each drive is asked equally often
-  drive_ = (drive_ + 1) % static_cast<std::size_t>(joint_count_);
-  if (drive_ == 0) step_ = (step_ + 1) % kWatchedCount;
+  do {
+    // the same parameter of all drives, then the next one: each drive is asked equally often
+    drive_ = (drive_ + 1) % static_cast<std::size_t>(joint_count_);
+    if (drive_ == 0) step_ = (step_ + 1) % steps_of_round_;
+  } while (asks_for_temperature() && !asked_temperature().config().exists());
   waits_ = true;
+  if (asks_for_temperature()) {
+    const TemperatureConfig& config = asked_temperature().config();
+    request = canopen::sdo_read(nodes_[drive_], config.index, config.subindex);
+    return true;
+  }
   request = canopen::sdo_read(nodes_[drive_], steps_[step_].index, steps_[step_].subindex);
   return true;
 }
 
 void ParameterWatch::take(const SdoResponse& response) noexcept {
+  if (asks_for_temperature()) return take_temperature(response);
   const ParameterStep& step = steps_[step_];
   if (!waits_ || response.node != nodes_[drive_] || response.index != step.index ||
       response.subindex != step.subindex) {

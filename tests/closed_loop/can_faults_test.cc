@@ -63,9 +63,10 @@ struct Row {
   std::string name;
   std::vector<BusFault> buses;
   std::vector<DriveFault> drives;
-  std::set<Fault> faults;  ///< any of them
-  std::set<Alarm> alarms;  ///< any of them; of Fault::kAlarm
-  int most;                ///< cycles, of the table
+  std::set<Fault> faults;     ///< any of them
+  std::set<Alarm> alarms;     ///< any of them; of Fault::kAlarm
+  int most;                   ///< cycles, of the table
+  bool temperatures = false;  ///< the drives' temperatures are read
 };
 
 void PrintTo(const Row& row, std::ostream* out) { *out << row.name; }
@@ -77,6 +78,7 @@ TEST_P(CanFault, StopsInTime) {
   CanRun::Options options = pressing();
   options.bus_faults = row.buses;
   options.drive_faults = row.drives;
+  options.temperatures = row.temperatures;
   CanRun run(plate(), options);
   start(run);
   run.run(std::max(row.most + 20, 750));
@@ -160,6 +162,12 @@ BusFault changed(int bus, int node, int index, int sub, double value) {
   return fault;
 }
 
+BusFault refused_object(int bus, int node, int index) {
+  BusFault fault = of_node(BusFaultKind::kSdoRefused, bus, node, kForGood, 0x06020000);
+  fault.index = static_cast<std::uint16_t>(index);
+  return fault;
+}
+
 using K = BusFaultKind;
 
 INSTANTIATE_TEST_SUITE_P(
@@ -230,6 +238,20 @@ INSTANTIATE_TEST_SUITE_P(
             {Fault::kDriveLeft, Fault::kAlarm},
             {Alarm::kWrongMode},
             2},
+        Row{"too_hot",
+            {},
+            {{FaultKind::kTemperature, 5, kBegin, kForGood, 85.0}},
+            {Fault::kAlarm},
+            {Alarm::kTooHot},
+            1000,
+            true},
+        Row{"temperature_refused",
+            {refused_object(1, 5, 0x2310)},
+            {},
+            {Fault::kAlarm},
+            {Alarm::kTemperatureLost},
+            3000,
+            true},
         Row{"drive_limited",
             {},
             {{FaultKind::kTorqueLimited, 1, kBegin, kForGood, 30.0}},
@@ -337,13 +359,23 @@ std::string counted(CanRun& run) {
   add("jumps", cycles.jumps);
   add("sends failed", cycles.sends_failed);
   add("internal limit", cycles.limited);
+  add("warm", cycles.warm);
+  add("temperature not answered", cycles.temperature_lost);
   return text.empty() ? "nothing to count" : text;
+}
+
+/// Refused in 99 of each 100 of the 800 cycles: a temperature is read once in a second.
+BusFault of_object_shortly(int bus, int node, int index) {
+  BusFault fault = refused_object(bus, node, index);
+  fault.cycles = 99;
+  return fault;
 }
 
 class CanNuisance : public testing::TestWithParam<Row> {};
 
 TEST_P(CanNuisance, IsGoneOnWith) {
   CanRun::Options options = pressing();
+  options.temperatures = GetParam().temperatures;
   for (int i = 0; i < 8; ++i) {
     for (BusFault fault : GetParam().buses) {
       fault.first_cycle = kBegin + 100 * i;
@@ -377,6 +409,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"torque_lost_twice", {of_frames(K::kFrameDropped, 2, 0x206, 2)}, {}, {}, {}, 0},
                     Row{"panel_lost_twice", {of_frames(K::kFrameDropped, 2, 0x1A0, 2)}, {}, {}, {}, 0},
                     Row{"foreign_chatter", {foreign(1, frame(0x7A0, {1, 2, 3, 4}), 1.0, 40)}, {}, {}, {}, 0},
+                    Row{"warm", {}, {{FaultKind::kTemperature, 5, kBegin, 1, 84.0}}, {}, {}, 0, true},
+                    Row{"temperature_refused_shortly", {of_object_shortly(1, 5, 0x2310)}, {}, {}, {}, 0, true},
                     Row{"drive_limited_shortly", {}, {{FaultKind::kTorqueLimited, 1, kBegin, 10, 30.0}}, {}, {}, 0},
                     Row{"transmit_queue_full_once", {bus_fault(K::kTransmitQueueFull, 1, 1)}, {}, {}, {}, 0}),
     [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
@@ -645,6 +679,31 @@ TEST(CanFlood, WithoutEndStopsInTime) {
   seen.found += "; " + std::to_string(run.most_taken()) + " frames taken in a cycle at most";
   seen.after += "; " + rest_of_arm(run);
   test::record(seen);
+}
+
+/// The temperatures of seven drives on three full buses are read for four seconds: no sample is lost or late, and
+/// the last sample of a cycle comes no later than without them.
+TEST(CanLoop, ReadsTemperaturesWithoutDelayingASample) {
+  CanRun plain(plate(), pressing());
+  start(plain);
+  plain.run(4000);
+  CanRun::Options options = pressing();
+  options.temperatures = true;
+  for (int i = 0; i < 7; ++i) {
+    options.drive_faults.push_back({FaultKind::kTemperature, i, kBegin + 500 * i, 1, 50.0 + i});
+  }
+  CanRun run(plate(), options);
+  start(run);
+  run.run(4000);
+  for (const CanRun::Cycle& cycle : run.cycles) {
+    if (cycle.number >= kBegin) {
+      ASSERT_EQ(cycle.record.lost, 0u) << cycle.number;
+    }
+  }
+  EXPECT_EQ(counted(run), "nothing to count");
+  EXPECT_EQ(run.drives().statistics().hottest_joint, 6);
+  EXPECT_NEAR(run.drives().statistics().hottest, 56.0, 1e-9);
+  EXPECT_EQ(run.drives().statistics().longest_round_trip_ns, plain.drives().statistics().longest_round_trip_ns);
 }
 
 /// The clock that stamps the frames is set during the run.

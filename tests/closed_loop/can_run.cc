@@ -75,6 +75,9 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
   layout.boot_timeout = 1.0;
   for (hal::DriveConfig& drive : layout.drives) {
     if (!options.names_drives) drive.identity = {};
+    if (options.temperatures) drive.temperature = sim::kUsualTemperature;
+    drive.temperature.warn = 70.0;
+    drive.temperature.stop = 85.0;
   }
   if (options.quiet) {
     layout.drive_heartbeat = layout.mode_refresh = 3.0;

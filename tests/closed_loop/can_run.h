@@ -56,6 +56,7 @@ class CanRun {
     double zero = 0.0;          ///< position of joint 2 where its counter is 0 [rad]
     double hold_from = 1.04;    ///< the enable switch is held from this time on [s]
     bool names_drives = true;   ///< the layout names the identities of the drives, as the device file does
+    bool temperatures = false;  ///< the layout names the simulated drives' temperatures: warn at 70, stop at 85 degC
     bool quiet = false;         ///< for 3 s from the first heartbeat on, only SYNC and PDOs are on the wires
     struct Flood {
       int bus = 0;

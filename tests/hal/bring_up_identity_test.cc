@@ -252,6 +252,30 @@ TEST_F(BringUpIdentityTest, TakesNoOtherAnswerForTheIdentity) {
   EXPECT_EQ(start().status, BringUpStatus::kOk);
 }
 
+/// The temperature that a drive tells at the start, at its limit and a count below it.
+TEST_F(BringUpIdentityTest, RefusesADriveThatIsTooHotOrTellsNoTemperature) {
+  layout_.drives[2].temperature = {.index = 0x2310, .subindex = 1, .scale = 0.1, .warn = 60.0, .stop = 85.0};
+  BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kRefused) << "it has no such object";
+  EXPECT_EQ(result.joint, 2);
+  EXPECT_EQ(result.index, 0x2310);
+  EXPECT_EQ(result.subindex, 1);
+  joint_2_.object(0x2310, 1) = {2, 849};
+  EXPECT_EQ(start().status, BringUpStatus::kOk);
+  joint_2_.object(0x2310, 1).value = 0xFFFF;
+  EXPECT_EQ(start().status, BringUpStatus::kOk) << "minus a tenth of a degree";
+  joint_2_.object(0x2310, 1).value = 850;
+  world_.log.clear();
+  result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kTooHot);
+  EXPECT_EQ(result.joint, 2);
+  EXPECT_NEAR(result.celsius, 85.0, 1e-9);
+  EXPECT_EQ(result.most_celsius, 85.0);
+  EXPECT_TRUE(sent_no_command());
+  joint_2_.object(0x2310, 1) = {4, 300};
+  EXPECT_EQ(start().status, BringUpStatus::kWrongSize);
+}
+
 /// The first wrong field of the first wrong drive is told, and after an ignored abort nothing of it stays.
 TEST_F(BringUpIdentityTest, TellsTheFirstWrongFieldOfTheFirstWrongDrive) {
   drive(1).object(0x1018, 2).value = 9;

@@ -55,6 +55,110 @@ TEST_F(CanDrivesTest, NothingFollowsSyncWhileDrivesTakeTheirTimeToAnswer) {
   EXPECT_GE(requests, 2);
 }
 
+/// A bus whose second drive tells its temperature, and whose drives answer for their parameters as the start left them.
+class CanDrivesTemperatureTest : public CanDrivesTest {
+ protected:
+  static BusLayout with_temperature() {
+    BusLayout warm = layout();
+    warm.drives[1].temperature = {.index = 0x2310, .subindex = 2, .scale = 0.1, .warn = 70.0, .stop = 85.0};
+    return warm;
+  }
+
+  void step(PowerRequest power = PowerRequest::kOff) {
+    drives.request();
+    if (++cycles_ % 20 == 0) heartbeats();
+    answer_all(kOff);
+    drives.receive(reading_);
+    drives.send({JointVector::Zero(), power});
+    for (const CanFrame& sent : bus_.take_sent()) {
+      if (sent.id == 0x603 || sent.id == 0x605) answer(sent);
+    }
+  }
+
+  void answer(const CanFrame& request) {
+    const int index = request.data[1] | request.data[2] << 8;
+    const int sub = request.data[3];
+    const auto reply = [&](int command, int low, int high = 0, int last = 0) {
+      bus_.receive_next(frame(static_cast<std::uint16_t>(request.id - 0x80),
+                              {command, request.data[1], request.data[2], sub, low, high, last, 0}));
+    };
+    if (index == 0x2310) {
+      EXPECT_EQ(request.id, 0x603) << "the other drive has none";
+      ++asked;
+      if (answers) reply(0x4B, tenths & 0xFF, tenths >> 8 & 0xFF);
+      return;
+    }
+    if (index == 0x1016) return reply(0x43, 0x32, 0x00, 0x7F);
+    if (index == 0x1400 && sub == 2) return reply(0x4F, 255);
+    if (index == 0x6061) return reply(0x4F, 10);
+    reply(0x4B, index == 0x1400 ? 4 : index == 0x6007 ? 3 : 2);
+  }
+
+  /// Steps until `done`, at most so many cycles. Returns their number.
+  template <class Done>
+  int steps_until(int most, Done&& done) {
+    int k = 0;
+    while (k < most && !done()) {
+      step();
+      ++k;
+    }
+    return k;
+  }
+
+  CanDrives drives{with_temperature(), wires_, {}};
+  int tenths = 300;
+  bool answers = true;
+  int asked = 0;
+};
+
+TEST_F(CanDrivesTemperatureTest, IsReadOnceASecondAndStopsTheArmUntilItHasCooled) {
+  for (int k = 0; k < 10'000; ++k) step();
+  EXPECT_GE(asked, 10);
+  EXPECT_LE(asked, 20);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  EXPECT_FALSE(reading_.warm[1] || reading_.temperature_lost[1]);
+  EXPECT_EQ(drives.statistics().hottest_joint, 1);
+  EXPECT_NEAR(drives.statistics().hottest, 30.0, 1e-9);
+  tenths = 700;
+  EXPECT_LT(steps_until(1100, [&] { return reading_.warm[1]; }), 1000);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone) << "it is a warning";
+  tenths = 850;
+  EXPECT_LT(steps_until(1100, [&] { return reading_.alarm != Alarm::kNone; }), 1000);
+  EXPECT_EQ(reading_.alarm, Alarm::kTooHot);
+  EXPECT_EQ(reading_.alarm_joint, 1);
+  EXPECT_EQ(drives.alarm_detail().index, 0x2310);
+  EXPECT_EQ(drives.alarm_detail().subindex, 2);
+  EXPECT_NEAR(drives.alarm_detail().celsius, 85.0, 1e-9);
+  for (int k = 0; k < 100; ++k) step(PowerRequest::kReset);
+  EXPECT_EQ(reading_.alarm, Alarm::kTooHot) << "a reset does not cool it";
+  tenths = 690;
+  for (int k = 0; k < 1100; ++k) step();
+  EXPECT_EQ(reading_.alarm, Alarm::kTooHot) << "it stays until it is reset";
+  step(PowerRequest::kReset);
+  step();
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  EXPECT_FALSE(reading_.warm[1]);
+  EXPECT_NEAR(drives.statistics().hottest, 85.0, 1e-9);
+}
+
+TEST_F(CanDrivesTemperatureTest, ThatIsNotAnsweredIsAWarningAndThenAnAlarm) {
+  steps_until(2000, [&] { return asked == 1; });
+  answers = false;
+  const int to_warning = steps_until(3000, [&] { return reading_.temperature_lost[1]; });
+  EXPECT_LT(to_warning, 1100);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  EXPECT_LT(to_warning + steps_until(3000, [&] { return reading_.alarm != Alarm::kNone; }), 3100);
+  EXPECT_EQ(reading_.alarm, Alarm::kTemperatureLost);
+  EXPECT_EQ(reading_.alarm_joint, 1);
+  EXPECT_EQ(asked, 4);
+  answers = true;
+  for (int k = 0; k < 1100; ++k) step();
+  EXPECT_FALSE(reading_.temperature_lost[1]);
+  step(PowerRequest::kReset);
+  step();
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+}
+
 /// A lost sample keeps the bit of the last one.
 TEST_F(CanDrivesTest, TellsTheInternalLimitOfEachDrive) {
   cycle(kEnabled);

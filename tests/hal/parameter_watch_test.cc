@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -114,6 +115,98 @@ TEST_F(ParameterWatchTest, AsksThreeDrivesInTheOrderOfTheirJoints) {
   constexpr std::array<int, 3> kOrder = {5, 9, 3};
   for (auto at = first; at != nodes.end(); ++at) {
     EXPECT_EQ(*at, kOrder.at(static_cast<std::size_t>(at - first) % 3));
+  }
+}
+
+/// Of three drives two tell their temperature: one request more for each of these in a round, in turn with the others.
+TEST_F(ParameterWatchTest, AsksForEachTemperatureOnceARound) {
+  BusLayout one = layout();
+  one.drives[1].bus = 1;
+  one.drives[0].temperature = {.index = 0x2310, .subindex = 3, .warn = 70.0, .stop = 85.0};
+  one.drives[1].temperature = {.index = 0x2345, .warn = 60.0, .stop = 65.0};
+  watch_ = ParameterWatch(one, 1);
+  EXPECT_EQ(watch_.interval(1000), 950 / (7 * 3));
+  for (int round = 0; round < 3; ++round) {
+    std::map<std::tuple<int, int, int>, int> asked;
+    for (int k = 0; k < 6 * 3 + 2; ++k) {
+      const Request request = ask();
+      ++asked[{request.node, request.index, request.subindex}];
+      if (request.index >= 0x2000 && request.index < 0x6000) {
+        watch_.take({.node = request.node,
+                     .kind = Kind::kRead,
+                     .index = static_cast<std::uint16_t>(request.index),
+                     .subindex = static_cast<std::uint8_t>(request.subindex),
+                     .size = 2,
+                     .value = request.node == 5 ? 84u : 61u});
+      } else {
+        watch_.take(good(request));
+      }
+    }
+    EXPECT_EQ(asked.size(), 20u);
+    EXPECT_EQ((asked[{5, 0x2310, 3}]), 1);
+    EXPECT_EQ((asked[{9, 0x2345, 0}]), 1);
+    for (const auto& [what, times] : asked) EXPECT_EQ(times, 1);
+  }
+  EXPECT_EQ(watch_.temperature(0).celsius(), 84.0);
+  EXPECT_EQ(watch_.temperature(1).celsius(), 61.0);
+  EXPECT_TRUE(std::isnan(watch_.temperature(2).celsius()));
+  EXPECT_EQ(alarm(), Alarm::kNone);
+}
+
+/// A drive that answers for its parameters, but not for its temperature, is lost at the third request. Answers of other
+/// nodes and for other objects do not count.
+TEST_F(ParameterWatchTest, LosesATemperatureThatIsNotAnsweredAndNothingElse) {
+  BusLayout one = layout();
+  for (DriveConfig& drive : one.drives) drive.temperature = {.index = 0x2310, .warn = 70.0, .stop = 85.0};
+  for (const bool aborts : {false, true}) {
+    watch_ = ParameterWatch(one, 1);
+    int asked = 0;
+    for (int k = 0; k < 200 && watch_.temperature(0).alarm() == Alarm::kNone; ++k) {
+      const Request request = ask();
+      if (request.index != 0x2310) {
+        watch_.take(good(request));
+        continue;
+      }
+      SdoResponse response{.node = request.node, .kind = Kind::kRead, .index = 0x2310, .size = 2, .value = 30};
+      if (request.node == 3) {
+        watch_.take(response);
+        continue;
+      }
+      ++asked;
+      response.node = 3;
+      watch_.take(response);
+      response.node = 5;
+      response.subindex = 1;
+      watch_.take(response);
+      response.subindex = 0;
+      response.kind = Kind::kAborted;
+      if (aborts) watch_.take(response);
+    }
+    EXPECT_EQ(asked, 3) << aborts;
+    EXPECT_EQ(watch_.temperature(0).alarm(), Alarm::kTemperatureLost);
+    EXPECT_EQ(watch_.temperature(2).alarm(), Alarm::kNone);
+    EXPECT_EQ(watch_.temperature(2).celsius(), 30.0);
+    EXPECT_EQ(alarm(), Alarm::kNone) << "its parameters are answered";
+  }
+}
+
+/// A drive without any answer is silent also where the fifth request is for its temperature.
+TEST_F(ParameterWatchTest, FindsASilentDriveWhicheverRequestIsTheFifth) {
+  BusLayout one = layout();
+  for (DriveConfig& drive : one.drives) drive.temperature = {.index = 0x2310, .warn = 70.0, .stop = 85.0};
+  for (int first = 0; first < 14; ++first) {
+    watch_ = ParameterWatch(one, 1);
+    for (int k = 0; k < first; ++k) {
+      const Request request = ask();
+      if (request.index != 0x2310) watch_.take(good(request));
+    }
+    int unanswered = 0;
+    while (alarm() == Alarm::kNone && unanswered < 40) {
+      ask();
+      ++unanswered;
+    }
+    EXPECT_EQ(alarm(), Alarm::kParameterChanged);
+    EXPECT_LE(unanswered, 11) << first << ": five of each of two drives, and one that sees it";
   }
 }
 

@@ -128,7 +128,9 @@ void TomlTable::complain(std::string_view key, const std::string& what) const {
 
 void TomlTable::miss(std::string_view key, std::string_view example) const {
   const std::size_t bracket = name_.find('[');  // of an array of tables
+  const std::size_t dot = name_.rfind('.');     // of an inner table
   const std::string below = name_.empty()                  ? "at the top"
+                            : dot != std::string::npos     ? fmt::format("in {} = {{ ... }}", name_.substr(dot + 1))
                             : bracket == std::string::npos ? fmt::format("below [{}]", name_)
                                                            : fmt::format("below [[{}]]", name_.substr(0, bracket));
   complain(key, fmt::format("is missing and has no default; {} write {} = {}", below, key, example));

@@ -30,6 +30,10 @@ std::string object_name(std::uint16_t index, std::uint8_t subindex) {
   return index == 0 ? "" : fmt::format("object {:04X}:{}", index, subindex);
 }
 
+std::string temperatures(double celsius, double stop) {
+  return fmt::format("{:.1f} degrees Celsius, the arm stops at {:g}", celsius, stop);
+}
+
 /// Returns the number of a field of the identity as makers print it: a serial number is decimal.
 std::string identity_number(std::uint8_t subindex, std::uint32_t value) {
   return subindex == hal::kIdentityFields.back().subindex ? fmt::format("{}", value) : fmt::format("0x{:X}", value);
@@ -85,6 +89,7 @@ std::string explain(const hal::BringUpResult& result, const std::vector<std::str
     case hal::BringUpStatus::kWrongRatio:
       more = fmt::format("{:.9g} instead of {:.9g}", result.ratio_found, result.ratio_expected);
       break;
+    case hal::BringUpStatus::kTooHot: more = temperatures(result.celsius, result.most_celsius); break;
     case hal::BringUpStatus::kDrivesSwapped:
     case hal::BringUpStatus::kDriveElsewhere: what = of_two_joints(result); [[fallthrough]];
     case hal::BringUpStatus::kWrongDrive:
@@ -115,6 +120,7 @@ std::string explain(const hal::cia402::AlarmDetail& alarm, const std::vector<std
   if (alarm.alarm == hal::Alarm::kWrongMode && alarm.index != 0) {
     append(more, fmt::format("mode {} instead of {}", static_cast<std::int32_t>(alarm.found), alarm.expected));
   }
+  if (alarm.alarm == hal::Alarm::kTooHot) append(more, temperatures(alarm.celsius, alarm.most_celsius));
   if (alarm.alarm == hal::Alarm::kParameterChanged) {
     append(more, fmt::format("0x{:X} instead of 0x{:X}", alarm.found, alarm.expected));
   }
@@ -125,11 +131,16 @@ std::string bus_summary(const hal::CanStatistics& statistics, int joint_count) {
   const auto sum = [joint_count](const auto& counts) {
     return std::accumulate(counts.begin(), counts.begin() + joint_count, std::uint64_t{0});
   };
+  std::string hottest;
+  if (statistics.hottest_joint >= 0) {
+    hottest = fmt::format("temperature of the drives: at most {:.1f} degrees Celsius, joint {}\n", statistics.hottest,
+                          statistics.hottest_joint + 1);
+  }
   return fmt::format(
       "buses: {} frames sent, {} received; samples lost {}, late {}; malformed {}, queue full {}, floods {}\n"
-      "round trip of all joints: at most {:.0f} us\n",
+      "round trip of all joints: at most {:.0f} us\n{}",
       statistics.sent, statistics.received, sum(statistics.lost), sum(statistics.late), statistics.malformed,
-      statistics.full, statistics.floods, 1e-3 * static_cast<double>(statistics.longest_round_trip_ns));
+      statistics.full, statistics.floods, 1e-3 * static_cast<double>(statistics.longest_round_trip_ns), hottest);
 }
 
 }  // namespace godobject::firmware

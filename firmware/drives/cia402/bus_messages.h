@@ -16,7 +16,7 @@ std::string explain(const hal::BringUpResult& result, const std::vector<std::str
 /// The reason of an alarm as one clause, in the same form.
 std::string explain(const hal::cia402::AlarmDetail& alarm, const std::vector<std::string>& interfaces);
 
-/// Figures of the buses as two lines.
+/// Figures of the buses as two lines, and a third one if drives tell their temperatures.
 std::string bus_summary(const hal::CanStatistics& statistics, int joint_count);
 
 }  // namespace godobject::firmware

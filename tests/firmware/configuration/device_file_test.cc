@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -186,6 +187,20 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"drive_delay = 0.0", "drive_delay = 0.0\nlimited_time = 0.0009",
             "bus.limited_time = 0.0009 is out of range"},
            {"drive_delay = 0.0", "drive_delay = 0.0\nlimited_time = 1.1", "bus.limited_time = 1.1 is out of range"},
+           {"\nzero = 0.0\n", "\nzero = 0.0\ntemperature = { warn = 70, stop = 85 }\n",
+            "joint[1].temperature.object is missing and has no default; in temperature = { ... } write object"},
+           {"\nzero = 0.0\n", "\nzero = 0.0\ntemperature = { object = 0x2310, stop = 85 }\n",
+            "joint[1].temperature.warn is missing"},
+           {"\nzero = 0.0\n", "\nzero = 0.0\ntemperature = { object = 0x2310, warn = 70 }\n",
+            "joint[1].temperature.stop is missing"},
+           {"\nzero = 0.0\n", "\nzero = 0.0\ntemperature = { object = 0x2310, warn = 70, stop = 70 }\n",
+            "joint[1].temperature.stop = 70 must be above warn = 70"},
+           {"\nzero = 0.0\n", "\nzero = 0.0\ntemperature = { object = 0x6064, warn = 70, stop = 85 }\n",
+            "joint[1].temperature.object = 24676 is out of range"},
+           {"\nzero = 0.0\n", "\nzero = 0.0\ntemperature = { object = 0x2310, type = \"i24\", warn = 70, stop = 85 }\n",
+            "joint[1].temperature.type = \"i24\" is not known; it must be i8,"},
+           {"\nzero = 0.0\n", "\nzero = 0.0\ntemperature = { object = 0x2310, scale = 0.0, warn = 70, stop = 85 }\n",
+            "joint[1].temperature.scale = 0 is out of range"},
            {"bit_rate = 1e6", "bit_rate = 2e6", "bus.bit_rate = 2e+06 is out of range"},
            {"drive_delay = 0.0\n", "", "bus.drive_delay is missing"},
            {"drive_delay = 0.0", "drive_delay = -1e-6", "bus.drive_delay = -1e-06 is out of range"},
@@ -246,6 +261,33 @@ TEST_F(DeviceFileTest, ShippedFilesNameTheSimulatedDrives) {
       EXPECT_EQ(drive.identity.revision, 0x10000u) << name << i;
       EXPECT_EQ(drive.identity.serial, static_cast<std::uint32_t>(drive.node)) << name << i;
     }
+  }
+}
+
+TEST_F(DeviceFileTest, ReadsTheTemperatureOfADrive) {
+  const std::string zero = "\nzero = 0.0\n";
+  EXPECT_FALSE(read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml").bus.drives[0].temperature.exists());
+  ASSERT_EQ(refusal(zero, zero + "temperature = { object = 0x2310, warn = 70, stop = 85.5 }\n"), "");
+  hal::TemperatureConfig temperature = read_device_file(file_).bus.drives[0].temperature;
+  EXPECT_EQ(temperature.index, 0x2310);
+  EXPECT_EQ(temperature.subindex, 0);
+  EXPECT_EQ(temperature.size, 2);
+  EXPECT_TRUE(temperature.is_signed);
+  EXPECT_EQ(temperature.scale, 1.0);
+  EXPECT_EQ(temperature.warn, 70.0);
+  EXPECT_EQ(temperature.stop, 85.5);
+  EXPECT_FALSE(read_device_file(file_).bus.drives[1].temperature.exists());
+  for (const auto& [type, size, is_signed] :
+       {std::tuple{"i8", 1, true}, {"u8", 1, false}, {"u16", 2, false}, {"i32", 4, true}, {"u32", 4, false}}) {
+    const std::string key = fmt::format(
+        "temperature = {{ object = 0x5FFF, sub = 7, type = \"{}\", scale = 0.1, warn = -40, stop = 300 }}\n", type);
+    ASSERT_EQ(refusal(zero, zero + key), "") << type;
+    temperature = read_device_file(file_).bus.drives[0].temperature;
+    EXPECT_EQ(temperature.index, 0x5FFF);
+    EXPECT_EQ(temperature.subindex, 7);
+    EXPECT_EQ(temperature.size, size);
+    EXPECT_EQ(temperature.is_signed, is_signed);
+    EXPECT_EQ(temperature.scale, 0.1);
   }
 }
 

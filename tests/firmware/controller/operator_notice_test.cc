@@ -58,6 +58,19 @@ TEST_F(OperatorNoticeTest, SaysOnceForEachJointThatItsDriveLimitsTheTorque) {
   EXPECT_EQ(told(Mode::kRunning, 0), line(2)) << "a limit that comes and goes is told once";
 }
 
+TEST_F(OperatorNoticeTest, SaysOnceForEachJointThatItsDriveIsWarmOrSilent) {
+  report_.warm = 0b10;
+  report_.temperature_lost = 0b1;
+  EXPECT_EQ(
+      told(Mode::kIdle, 0),
+      "firmware_session_test: joint 2: the drive is warmer than temperature.warn; let it rest, or the arm stops at "
+      "temperature.stop\nfirmware_session_test: joint 1: the drive did not answer for its temperature; the arm "
+      "stops if it stays so\n");
+  report_.warm = 0b10;
+  report_.temperature_lost = 0b1;
+  EXPECT_EQ(told(Mode::kIdle, 0), "");
+}
+
 TEST_F(OperatorNoticeTest, CountsTheCyclesOfItsPeriod) {
   for (const auto& [period, waits, behind] : {std::tuple{0.25e-3, 12000u, 1200u}, std::tuple{10e-3, 300u, 30u}}) {
     OperatorNotice notice(report_, period);

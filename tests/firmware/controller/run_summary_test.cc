@@ -65,6 +65,18 @@ TEST(RunSummary, TellsOfAnInternalLimitOnlyIfThereWasOne) {
   EXPECT_NE(with.find("\ninternal limit of a drive: active in 24 cycles with power\n"), std::string::npos) << with;
 }
 
+TEST(RunSummary, TellsOfTemperaturesOnlyIfThereWasAWarning) {
+  RunReport report;
+  CycleCounters counts = counters();
+  EXPECT_EQ(run_summary(example(report), counts, 1e-3, "", std::nullopt).find("temperature"), std::string::npos);
+  counts.warm = 25;
+  counts.temperature_lost = 26;
+  const std::string text = run_summary(report, counts, 1e-3, "", std::nullopt);
+  EXPECT_NE(text.find("\ntemperature of a drive: above temperature.warn in 25 cycles, not answered in 26\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(RunSummary, HasEachNumberInItsPlace) {
   RunReport report;
   const std::string text = run_summary(example(report), counters(), 1e-3, "buses: none\n", std::nullopt);

@@ -85,6 +85,23 @@ TEST_F(CycleRecordTest, CountsCyclesInWhichADriveLimitsItsTorque) {
   EXPECT_EQ(cycle_->supervisor().fault_joint(), 3);
 }
 
+/// With and without power: a warm drive stays one.
+TEST_F(CycleRecordTest, CountsCyclesWithAWarmOrASilentDrive) {
+  make();
+  drives_.reading.warm[6] = true;
+  for (int k = 0; k < 5; ++k) step();
+  EXPECT_EQ(record().warm, 0b1000000u);
+  EXPECT_EQ(record().temperature_lost, 0u);
+  drives_.reading.warm[6] = false;
+  drives_.reading.temperature_lost = {true, true};
+  for (int k = 0; k < 3; ++k) step();
+  EXPECT_EQ(record().warm, 0u);
+  EXPECT_EQ(record().temperature_lost, 0b11u);
+  EXPECT_EQ(counters().warm, 5u);
+  EXPECT_EQ(counters().temperature_lost, 3u);
+  EXPECT_EQ(record().fault, Fault::kNone);
+}
+
 TEST_F(CycleRecordTest, HasTheWrenchThatIsRendered) {
   scene_.H_MB.translation = Vector3(0.0, 0.03, 0.0);
   make();

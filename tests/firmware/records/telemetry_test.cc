@@ -66,13 +66,13 @@ TEST_F(TelemetryTest, WritesAHeaderWithUnitsAndARowARecord) {
   const std::vector<std::string> all = lines();
   ASSERT_EQ(all.size(), 101u);
   const auto columns = [](const std::string& line) { return 1 + std::count(line.begin(), line.end(), ','); };
-  EXPECT_EQ(columns(all[0]), 9 + 3 * 3 + 14 + 9 + 1);
+  EXPECT_EQ(columns(all[0]), 9 + 3 * 3 + 14 + 9 + 2);
   for (const std::string& line : all) EXPECT_EQ(columns(line), columns(all[0]));
   EXPECT_EQ(all[0].substr(0, 22), "t_s,late_us,compute_us");
   EXPECT_EQ(all[43].substr(0, 39), "0.042000,0.000,0.000,running,0,0,free,0");
   EXPECT_NE(all[0].find("q2_rad"), std::string::npos);
-  EXPECT_TRUE(all[0].ends_with(",depth_m,absorbed_J,injected_Ns_per_m,drives_limited"));
-  EXPECT_TRUE(all[43].ends_with(",-0.125,7.5,0"));
+  EXPECT_TRUE(all[0].ends_with(",depth_m,absorbed_J,injected_Ns_per_m,drives_limited,drives_warm"));
+  EXPECT_TRUE(all[43].ends_with(",-0.125,7.5,0,0"));
 }
 
 TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
@@ -95,6 +95,8 @@ TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
   cycle.absorbed = -0.02;
   cycle.injected_damping = 21.0;
   cycle.limited = 0b1010001;
+  cycle.warm = 0b0001011;
+  cycle.temperature_lost = 0b1000010;
   {
     TelemetryWriter writer(folder_, 2, *ring_);
     EXPECT_EQ(writer.file(), folder_ / "telemetry.csv");
@@ -108,10 +110,10 @@ TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
   EXPECT_EQ(all[0],
             "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost,q1_rad,q2_rad,qd1_rad_s,qd2_rad_s,"
             "torque1_Nm,torque2_Nm,dpx_m,dpy_m,dpz_m,dqw,dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,gqy,gqz,fx_N,fy_N,"
-            "fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m,drives_limited");
+            "fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m,drives_limited,drives_warm");
   EXPECT_EQ(all[1],
             "1.234567,2.500,3.250,fade,3,0.4,contact,6,7,1.5,-2.5,3.5,-4.5,5.5,-6.5,0.1,0.2,0.3,0.5,-0.5,0.25,0.75,"
-            "-0.1,-0.2,-0.3,1,2,3,4,11,12,13,14,15,16,0.001,-0.02,21,3");
+            "-0.1,-0.2,-0.3,1,2,3,4,11,12,13,14,15,16,0.001,-0.02,21,3,4");
 }
 
 /// Any number of rows, also at the number that one write call takes.

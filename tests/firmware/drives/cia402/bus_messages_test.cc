@@ -101,6 +101,28 @@ TEST(BusMessages, AWrongDriveIsToldWithItsFieldAndNumbers) {
             "device file (serial 300 instead of 171)");
 }
 
+TEST(BusMessages, ATemperatureIsToldWithItsLimit) {
+  const std::string numbers = " (86.3 degrees Celsius, the arm stops at 85)";
+  EXPECT_EQ(
+      explain(
+          {.alarm = hal::Alarm::kTooHot, .bus = 1, .joint = 2, .index = 0x2310, .celsius = 86.26, .most_celsius = 85.0},
+          kNames),
+      "can1, joint 3, object 2310:0: " + words(hal::Alarm::kTooHot) + numbers);
+  EXPECT_EQ(explain({.alarm = hal::Alarm::kTemperatureLost, .bus = 1, .joint = 2, .index = 0x2310}, kNames),
+            "can1, joint 3, object 2310:0: " + words(hal::Alarm::kTemperatureLost));
+  hal::BringUpResult result{.status = hal::BringUpStatus::kTooHot, .bus = 0, .node = 4, .joint = 2, .index = 0x2310};
+  result.celsius = 86.26;
+  result.most_celsius = 85.0;
+  EXPECT_EQ(explain(result, kNames),
+            "can0, node 4, joint 3, object 2310:0: " + words(hal::BringUpStatus::kTooHot) + numbers);
+  hal::CanStatistics statistics;
+  EXPECT_EQ(bus_summary(statistics, 3).find("temperature"), std::string::npos);
+  statistics.hottest = 71.26;
+  statistics.hottest_joint = 1;
+  EXPECT_TRUE(
+      bus_summary(statistics, 3).ends_with("us\ntemperature of the drives: at most 71.3 degrees Celsius, joint 2\n"));
+}
+
 /// Each part of a place alone, and none.
 TEST(BusMessages, APlaceHasOnlyThePartsThatAreKnown) {
   const std::string what = words(hal::BringUpStatus::kNoAnswer);
