@@ -41,10 +41,11 @@ CONTROLLER.toml, in SI units; firmware/README.md explains each key:
   [telemetry]  folder, every, bus
   [simulation] path, slower, begin
 
---log DIR writes DIR/telemetry.csv, one row a cycle: times; mode; fault; joint positions q, velocities qd and torques; device
-pose d and god object g of the moving mesh in the scene; force f and torque t on the hand along the axes of the room; depth;
-energy absorbed from arm and hand; damping injected. In virtual time DIR/hand.csv has the work of the simulated hand on the
-tool since the start.
+--log DIR gives each run a folder of its own, named by its start in UTC: DIR/20261130T143055Z. Earlier runs stay. DIR/latest
+links to the newest run, and DIR/telemetry.csv to its telemetry.csv. This has one row a cycle: times; mode; fault; joint
+positions q, velocities qd and torques; device pose d and god object g of the moving mesh in the scene; force f and torque t on
+the hand along the axes of the room; depth; energy absorbed from arm and hand; damping injected. In virtual time hand.csv has
+the work of the simulated hand on the tool since the start. Users outside the group may not read these files.
 
 Exit codes: 0 done, 64 usage, 65 bad scene image or path, or an image without the requested solver or friction, 66 an input is
 missing or a configuration file cannot be read, 69 drives or bus not available, or stopped by a fault, 74 cannot write, 77 no

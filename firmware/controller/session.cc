@@ -1,6 +1,7 @@
 #include "firmware/controller/session.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <thread>
@@ -18,7 +19,6 @@
 #include "firmware/controller/work_calibration.h"
 #include "firmware/machine/rt_setup.h"
 #include "firmware/machine/worker_thread.h"
-#include "firmware/records/hand_log.h"
 #include "firmware/simulation/simulated_arm.h"
 #include "hal/linux/monotonic_clock.h"
 #include "toolchain/command_line/failure.h"
@@ -124,9 +124,11 @@ std::uint64_t Session::measured_budget(const CycleSetup& setup, double seconds) 
 std::string Session::run(const std::optional<double>& duration, RunRequests& requests) {
   hal::MonotonicClock stopwatch;
   RunRecords records({.folder = config_.telemetry.folder,
+                      .start = std::chrono::system_clock::now(),
                       .joint_count = config_.device.model.joint_count,
                       .buses = config_.telemetry.bus,
-                      .bus_names = link_->bus_names()},
+                      .bus_names = link_->bus_names(),
+                      .hand = !link_->real_time()},
                      ring_, bus_ring_);
   if (run_loop(run_setup(duration, stopwatch), requests, records)) {
     fmt::print("{}",
@@ -192,15 +194,14 @@ bool Session::run_loop(const RunSetup& setup, RunRequests& requests, RunRecords&
 /// Notices and logs in the same thread, so that a run in virtual time is the same each time.
 void Session::run_in_virtual_time(const RunSetup& setup, hal::Clock& clock, RunRequests& requests, RunRecords& records,
                                   OperatorNotice& notice) {
-  std::optional<HandLog> hand;
+  HandLog* const hand = records.hand();
   const SimulatedArm* arm = link_->simulated_arm();
-  if (records.telemetry() != nullptr) hand.emplace(config_.telemetry.folder);
   run_controller(setup, clock, *cycle_, requests, ring_, report_, [&] {
     notice.look();
     records.drain();
-    if (hand) hand->write_row(arm->now_ns(), arm->hand_work());
+    if (hand != nullptr) hand->write_row(arm->now_ns(), arm->hand_work());
   });
-  if (hand) hand->close();
+  if (hand != nullptr) hand->close();
 }
 
 std::string Session::describe_stop() const {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -73,15 +74,9 @@ void append_pcap_packet(const hal::ReceivedFrame& received, std::string& bytes) 
   std::memcpy(&bytes[begin + 8], frame.data.data(), frame.length);
 }
 
-BusLogWriter::Bus::Bus(const std::filesystem::path& folder, const std::string& its_name)
-    : name(its_name), file(folder / (its_name + ".pcap")) {
-  file.write(pcap_header(), 0);
-}
-
-BusLogWriter::BusLogWriter(const std::filesystem::path& folder, const std::vector<std::string>& interfaces,
-                           hal::CanLogRing& ring)
-    : ring_(ring), text_file_(folder / "can.log") {
-  for (const std::string& name : interfaces) buses_.emplace_back(folder, name);
+void BusLogWriter::add_bus(const std::string& interface, LogFile packets) {
+  buses_.push_back({interface, std::move(packets)});
+  buses_.back().file.write(pcap_header(), 0);
 }
 
 void BusLogWriter::drain() {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <stop_token>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "firmware/records/log_file.h"
 #include "hal/can_log_ring.h"
@@ -24,12 +24,20 @@ std::string pcap_header();
 /// identifier in network order.
 void append_pcap_packet(const hal::ReceivedFrame& received, std::string& bytes);
 
-/// Writes the frames of a ring to DIR/can.log, all buses in the format of `candump -L`, and to DIR/INTERFACE.pcap, one
-/// file a bus. A full or stalled disk costs frames, which are counted, and nothing else.
+/// Writes the frames of a ring to can.log, all buses in the format of `candump -L`, and to INTERFACE.pcap, one file a
+/// bus. A full or stalled disk costs frames, which are counted, and nothing else.
 class BusLogWriter {
  public:
-  /// `interfaces`: names of the buses, bus 0 first. Throws command::Failure (kIo) if folder or files cannot be made.
-  BusLogWriter(const std::filesystem::path& folder, const std::vector<std::string>& interfaces, hal::CanLogRing& ring);
+  static constexpr const char* kFileName = "can.log";
+
+  /// The name of the file with the packets of an interface.
+  static std::string packet_file_name(const std::string& interface) { return interface + ".pcap"; }
+
+  /// `text`: file for the lines. The ring outlives this.
+  BusLogWriter(LogFile text, hal::CanLogRing& ring) : ring_(ring), text_file_(std::move(text)) {}
+
+  /// Adds the next bus, bus 0 first. `packets`: file for its packets; writes the header.
+  void add_bus(const std::string& interface, LogFile packets);
 
   /// Writes all frames that are in the ring.
   void drain();
@@ -43,11 +51,9 @@ class BusLogWriter {
 
  private:
   struct Bus {
-    Bus(const std::filesystem::path& folder, const std::string& its_name);
-
     std::string name;
     LogFile file;
-    std::string packets;
+    std::string packets{};
     std::uint64_t count = 0;
   };
 

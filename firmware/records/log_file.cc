@@ -1,33 +1,22 @@
 #include "firmware/records/log_file.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
-#include <system_error>
-
-#include <fmt/format.h>
-
-#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 
-LogFile::LogFile(const std::filesystem::path& file) : path_(file) {
-  const std::filesystem::path folder = file.parent_path();
-  std::error_code error;
-  if (std::filesystem::create_directories(folder, error); error) {
-    throw command::Failure(command::ExitCode::kIo, fmt::format("{}: cannot make this folder ({}); name another one",
-                                                               folder.string(), error.message()));
-  }
-  descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) {
-    throw command::Failure(command::ExitCode::kIo, fmt::format("{}: cannot be written ({}); check the folder",
-                                                               file.string(), std::strerror(errno)));
-  }
+LogFile::~LogFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-LogFile::~LogFile() { ::close(descriptor_); }
+LogFile::LogFile(LogFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_),
+      torn_(other.torn_),
+      written_(other.written_),
+      lost_(other.lost_) {}
 
 void LogFile::write(std::string_view block, std::uint64_t records) {
   std::size_t done = 0;

@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 namespace godobject::firmware {
 
@@ -14,11 +15,12 @@ namespace godobject::firmware {
 /// was written in part is removed, so the file always ends with a whole record.
 class LogFile {
  public:
-  /// Makes the folder and an empty file. Throws command::Failure (kIo) if that fails.
-  explicit LogFile(const std::filesystem::path& file);
+  /// `descriptor`: of the open, empty file, which this closes. `path`: its name in messages. RecordFolder::create makes
+  /// such files.
+  LogFile(std::filesystem::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
   ~LogFile();
-  LogFile(const LogFile&) = delete;
-  LogFile& operator=(const LogFile&) = delete;
+  LogFile(LogFile&& other) noexcept;
+  LogFile& operator=(LogFile&&) = delete;
 
   /// Appends a block with this number of records, whole or not at all.
   void write(std::string_view block, std::uint64_t records);
@@ -29,7 +31,7 @@ class LogFile {
 
  private:
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  int descriptor_;        // -1: moved from
   std::size_t size_ = 0;  // of whole blocks
   bool torn_ = false;     // a partial block could not be removed; nothing more is written
   std::uint64_t written_ = 0;

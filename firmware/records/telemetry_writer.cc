@@ -4,6 +4,7 @@
 #include <bit>
 #include <charconv>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -64,8 +65,8 @@ void append(std::string& text, const TelemetryRecord& record, int joint_count) {
 
 }  // namespace
 
-TelemetryWriter::TelemetryWriter(const std::filesystem::path& folder, int joint_count, TelemetryRing& ring)
-    : file_(folder / "telemetry.csv"), joint_count_(joint_count), ring_(ring) {
+TelemetryWriter::TelemetryWriter(LogFile file, int joint_count, TelemetryRing& ring)
+    : file_(std::move(file)), joint_count_(joint_count), ring_(ring) {
   file_.write(header(joint_count), 0);
 }
 

@@ -10,12 +10,14 @@
 
 namespace godobject::firmware {
 
-/// Writes the records of a ring to DIR/telemetry.csv: a header with units, then one row a record. A full or stalled
+/// Writes the records of a ring to a file, telemetry.csv: a header with units, then one row a record. A full or stalled
 /// disk costs rows, which are counted, and nothing else.
 class TelemetryWriter {
  public:
-  /// Throws command::Failure (kIo) if folder or file cannot be made.
-  TelemetryWriter(const std::filesystem::path& folder, int joint_count, TelemetryRing& ring);
+  static constexpr const char* kFileName = "telemetry.csv";
+
+  /// Writes the header. The ring outlives this.
+  TelemetryWriter(LogFile file, int joint_count, TelemetryRing& ring);
 
   /// Writes all records that are in the ring.
   void drain();

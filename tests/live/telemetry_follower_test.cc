@@ -121,6 +121,27 @@ TEST_F(TelemetryFollowerTest, FollowsTheNextRun) {
   EXPECT_EQ(times(), Times{0.002});
 }
 
+/// The controller gives each run a folder of its own, and lets links lead to the newest.
+TEST_F(TelemetryFollowerTest, FollowsTheLinkToTheNextRun) {
+  const auto begin_run = [this](const std::string& name, const std::string& rows) {
+    std::filesystem::create_directory(folder_ / name);
+    std::ofstream(folder_ / name / "telemetry.csv") << kHeader << rows;
+    std::filesystem::create_symlink(name, folder_ / ".latest");
+    std::filesystem::rename(folder_ / ".latest", folder_ / "latest");
+  };
+  std::filesystem::create_symlink("latest/telemetry.csv", file_);
+  EXPECT_EQ(times(), Times{0.0}) << "no run yet";
+  begin_run("one", row(5.0));
+  EXPECT_EQ(times(), Times{5.0});
+  append(row(5.001));
+  EXPECT_EQ(times(), Times{5.001});
+  begin_run("two", row(6.0));
+  EXPECT_EQ(times(), Times{6.0});
+  std::ofstream(folder_ / "one" / "telemetry.csv", std::ios::app) << row(5.002);
+  append(row(6.001));
+  EXPECT_EQ(times(), Times{6.001}) << "the first run is left";
+}
+
 /// A new run has written as many bytes as the one before, between two looks.
 TEST_F(TelemetryFollowerTest, FollowsTheNextRunOfTheSameLength) {
   append(kHeader + row(5.0) + row(5.001));

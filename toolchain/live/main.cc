@@ -41,8 +41,8 @@ and plots. Ctrl-C ends.
 
 Without --follow the arm is simulated here, as by godobject-controller, slowed to real time. Its hand repeats
 simulation.path. With --hand the mouse is the hand: drag the moving body. Solver, friction and gains can be changed
-meanwhile. With --follow the page looks at a controller in another process, simulated or real, through the telemetry.csv
-that it writes to DIR. Nothing that a page does reaches that controller or any bus. With --replay the page plays an output of
+meanwhile. With --follow the page looks at a controller in another process, simulated or real, through DIR/telemetry.csv,
+which links to that of its newest run. A run that begins later is followed, too. Nothing that a page does reaches that controller or any bus. With --replay the page plays an output of
 godobject-replay or a telemetry.csv, again and again; with CONTROLLER.toml a telemetry shows the arm, too.
 
 Prints a second address, ws://..., for Foxglove and Lichtblick: there choose "Open connection", "Foxglove WebSocket", and

@@ -99,7 +99,7 @@ void TelemetryFollower::take(std::vector<LiveSample>& samples) {
 void TelemetryFollower::read_line(std::string_view line, std::vector<LiveSample>& samples) {
   try {
     LiveSample sample = sample_of(columns_->row(line));
-    begins_again_ = begins_again_ || sample.t < last_t_;  // a new run has overwritten the file
+    begins_again_ = begins_again_ || sample.t < last_t_;  // another program has overwritten the file
     last_t_ = sample.t;
     samples.push_back(std::move(sample));
   } catch (const figures::MalformedTelemetry&) {

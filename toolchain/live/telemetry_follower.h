@@ -16,7 +16,8 @@
 namespace godobject::live {
 
 /// A controller in another process, through the telemetry.csv that a thread of it writes: whoever looks takes nothing
-/// from the loop. A new run of the controller, which overwrites the file, is followed, too. Only looks.
+/// from the loop. The file is a link to that of the newest run, so a run that begins later is followed, too. Only
+/// looks.
 class TelemetryFollower final : public LiveSource {
  public:
   /// `config`: of the controller, whose telemetry.folder has the file. Throws command::Failure if scene or gains cannot

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <functional>
+#include <map>
 #include <set>
 #include <thread>
 #include <vector>
@@ -184,13 +185,14 @@ TEST_F(ControllerProcessTest, LeavesNothingHalfWrittenButTheLastRowWhenItIsKille
   ASSERT_TRUE(see([&] { return has("running"); }));
   process.send(SIGKILL);
   EXPECT_EQ(process.wait(), -SIGKILL);
-  std::set<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "logs")) {
-    files.insert(entry.path().filename());
+  const std::filesystem::path killed = folder_ / "logs" / std::filesystem::read_symlink(folder_ / "logs" / "latest");
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(killed)) {
+    files[entry.path().filename()] = text(entry.path());
   }
-  EXPECT_EQ(files, (std::set<std::string>{"telemetry.csv", "hand.csv"}));
-  for (const std::string& file : files) {
-    const std::string log = text("logs/" + file);
+  ASSERT_EQ(files.size(), 2u);
+  for (const auto& [file, log] : files) {
+    EXPECT_TRUE(file == "telemetry.csv" || file == "hand.csv") << file;
     std::istringstream lines(log.substr(0, log.rfind('\n') + 1));
     std::string line;
     std::getline(lines, line);
@@ -198,16 +200,28 @@ TEST_F(ControllerProcessTest, LeavesNothingHalfWrittenButTheLastRowWhenItIsKille
     EXPECT_GT(columns, 0);
     while (std::getline(lines, line)) ASSERT_EQ(std::count(line.begin(), line.end(), ','), columns) << file;
   }
-  // the next run starts with the files that the killed process left
+  // the next run has a folder of its own
   Process again = start({"--duration", "0.5"});
   EXPECT_EQ(again.wait(), 0) << text("log.txt");
+  EXPECT_NE(folder_ / "logs" / std::filesystem::read_symlink(folder_ / "logs" / "latest"), killed);
+  for (const auto& [file, log] : files) EXPECT_TRUE(text(killed / file) == log) << file << " has changed";
+}
+
+TEST_F(ControllerProcessTest, OverwritesNothingByALinkInPlaceOfItsTelemetry) {
+  write_controller("[start]\nsign_test = false\n");
+  std::filesystem::create_directories(folder_ / "logs");
+  std::ofstream(folder_ / "precious") << "kept";
+  std::filesystem::create_symlink("../precious", folder_ / "logs" / "telemetry.csv");
+  Process process = start({"--duration", "0.1"});
+  EXPECT_EQ(process.wait(), 74);
+  EXPECT_TRUE(says("logs/telemetry.csv: is not a link to latest/telemetry.csv")) << text("log.txt");
+  EXPECT_EQ(text("precious"), "kept");
 }
 
 TEST_F(ControllerProcessTest, GoesOnWithoutItsTelemetryOnAFullDisk) {
   write_controller("[start]\nsign_test = false\n");
-  std::filesystem::create_directories(folder_ / "logs");
-  std::filesystem::create_symlink("/dev/full", folder_ / "logs" / "telemetry.csv");
-  Process process = start({"--duration", "2"});
+  Process process(folder_, GODOBJECT_CONTROLLER, {"c.toml", "--log", "logs", "--duration", "2"},
+                  {.library = GODOBJECT_FULL_DISK_LIBRARY});
   const int code = process.wait();
   EXPECT_EQ(code, 0) << text("log.txt");
   EXPECT_TRUE(says("telemetry.csv: 0 rows, ")) << text("log.txt");

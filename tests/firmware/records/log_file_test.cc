@@ -2,12 +2,14 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -20,7 +22,9 @@
 #include <vector>
 
 #include "firmware/records/hand_log.h"
+#include "firmware/records/record_folder.h"
 #include "firmware/records/run_records.h"
+#include "tests/firmware/records/open_log.h"
 #include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
@@ -73,7 +77,8 @@ class LogFileTest : public test::FolderTest {
 };
 
 TEST_F(LogFileTest, HoldsItsBlocksInTheirOrderAndCountsTheirRecords) {
-  LogFile file(folder_ / "new" / "a.log");
+  std::filesystem::create_directory(folder_ / "new");
+  LogFile file = open_log(folder_ / "new" / "a.log");
   EXPECT_EQ(file.path(), folder_ / "new" / "a.log");
   EXPECT_EQ(content("new/a.log"), "");
   file.write("one\n", 1);
@@ -90,7 +95,7 @@ TEST_F(LogFileTest, MayHaveTheDescriptorOfTheStandardInput) {
   const int input = ::fcntl(0, F_DUPFD_CLOEXEC, 100);
   ::close(0);
   {
-    LogFile file(folder_ / "a.log");
+    LogFile file = open_log(folder_ / "a.log");
     EXPECT_EQ(descriptors_on(folder_ / "a.log"), std::vector<int>{0});
     file.write("one\n", 1);
     EXPECT_EQ(file.written(), 1u);
@@ -103,11 +108,9 @@ TEST_F(LogFileTest, MayHaveTheDescriptorOfTheStandardInput) {
   EXPECT_EQ(content("a.log"), "one\n");
 }
 
-/// The file of an earlier run is emptied. A file that another program empties goes on at its new end, without a hole.
-TEST_F(LogFileTest, BeginsEmptyAndGoesOnAtTheEndOfTheFile) {
-  std::ofstream(folder_ / "a.log") << "of an earlier run\n";
-  LogFile file(folder_ / "a.log");
-  EXPECT_EQ(content("a.log"), "");
+/// A file that another program empties goes on at its new end, without a hole.
+TEST_F(LogFileTest, GoesOnAtTheEndOfTheFile) {
+  LogFile file = open_log(folder_ / "a.log");
   file.write("one\n", 1);
   std::filesystem::resize_file(folder_ / "a.log", 0);
   file.write("two\n", 1);
@@ -117,32 +120,14 @@ TEST_F(LogFileTest, BeginsEmptyAndGoesOnAtTheEndOfTheFile) {
 /// A program that the controller starts does not get the file, and the end closes it.
 TEST_F(LogFileTest, KeepsItsDescriptorToItself) {
   {
-    const LogFile file(folder_ / "a.log");
-    const std::vector<int> open = descriptors_on(folder_ / "a.log");
+    const LogFile file = RecordFolder(folder_, "run").create("a.log");
+    const std::vector<int> open = descriptors_on(folder_ / "run" / "a.log");
     ASSERT_EQ(open.size(), 1u);
     EXPECT_NE(::fcntl(open[0], F_GETFD) & FD_CLOEXEC, 0);
     EXPECT_EQ(::fcntl(open[0], F_GETFL) & O_ACCMODE, O_WRONLY);
   }
-  EXPECT_TRUE(descriptors_on(folder_ / "a.log").empty());
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "a.log"));
-}
-
-TEST_F(LogFileTest, SaysWhichFileOrFolderCannotBeMade) {
-  std::filesystem::create_directory(folder_ / "a.log");
-  std::ofstream(folder_ / "file") << "x";
-  const auto refusal = [](const std::filesystem::path& file) {
-    try {
-      const LogFile log(file);
-    } catch (const command::Failure& failure) {
-      EXPECT_EQ(failure.exit_code(), command::ExitCode::kIo);
-      return std::string(failure.what());
-    }
-    return std::string();
-  };
-  EXPECT_EQ(refusal(folder_ / "a.log"),
-            (folder_ / "a.log").string() + ": cannot be written (Is a directory); check the folder");
-  EXPECT_EQ(refusal(folder_ / "file" / "a.log"),
-            (folder_ / "file").string() + ": cannot make this folder (Not a directory); name another one");
+  EXPECT_TRUE(descriptors_on(folder_ / "run" / "a.log").empty());
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / "a.log"));
 }
 
 /// A pipe whose reader goes away in the middle of a block: the part cannot be removed, so nothing follows it.
@@ -151,7 +136,7 @@ TEST_F(LogFileTest, WritesNothingMoreBehindAPartThatItCannotRemove) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   int reader = ::open((folder_ / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
   ASSERT_GE(reader, 0);
-  LogFile file(folder_ / "pipe");
+  LogFile file = open_log(folder_ / "pipe");
   std::thread leaves([reader] {
     char byte = 0;
     while (::read(reader, &byte, 1) <= 0) std::this_thread::yield();
@@ -175,7 +160,8 @@ TEST_F(LogFileTest, WritesNothingMoreBehindAPartThatItCannotRemove) {
 /// A signal that interrupts a write, and a disk that takes a part of a block, lose and repeat nothing.
 TEST_F(LogFileTest, IsWrittenInPartsByADiskThatIsInterrupted) {
   for (const std::size_t most : {1u, 3u, 7u, 8u, 9u}) {
-    LogFile file(folder_ / "a.log");
+    std::filesystem::remove(folder_ / "a.log");
+    LogFile file = open_log(folder_ / "a.log");
     HesitantDisk disk{.most = most};
     hesitant_disk = &disk;
     file.write("one\ntwo\n", 2);
@@ -193,7 +179,7 @@ TEST_F(LogFileTest, GoesOnAfterABlockOfWhichNothingWasWritten) {
   const auto before = std::signal(SIGPIPE, SIG_IGN);
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   int reader = ::open((folder_ / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
-  LogFile file(folder_ / "pipe");
+  LogFile file = open_log(folder_ / "pipe");
   ::close(reader);
   file.write("lost\n", 2);
   EXPECT_EQ(file.lost(), 2u);
@@ -226,23 +212,23 @@ TEST_F(LogFileTest, IsDrainedOnceMoreWhenItIsAskedToStop) {
 }
 
 TEST_F(LogFileTest, OfTheHandHasARowACycle) {
-  HandLog log(folder_);
+  HandLog log(open_log(folder_ / "hand.csv"));
   log.write_row(1'000'000, 0.25);
   log.write_row(2'500'000'000, -1.23456789012);
   log.close();
   EXPECT_EQ(content("hand.csv"), "t_s,hand_J\n0.001000,0.25\n2.500000,-1.23456789\n");
+}
+
+TEST_F(LogFileTest, OfTheHandRefusesADiskThatIsFull) {
+  HandLog full(open_log("/dev/full"));
+  for (int i = 0; i < 100; ++i) full.write_row(0, 1.0);
   try {
-    HandLog(folder_ / "nowhere");
+    full.close();
     FAIL();
   } catch (const command::Failure& failure) {
     EXPECT_EQ(failure.exit_code(), command::ExitCode::kIo);
-    EXPECT_EQ(failure.what(), (folder_ / "nowhere" / "hand.csv").string() + ": cannot be written; check the folder");
+    EXPECT_EQ(std::string(failure.what()), "/dev/full: 100 rows could not be written; check the disk");
   }
-  std::filesystem::create_directory(folder_ / "full");
-  std::filesystem::create_symlink("/dev/full", folder_ / "full" / "hand.csv");
-  HandLog full(folder_ / "full");
-  full.write_row(0, 1.0);
-  EXPECT_THROW(full.close(), command::Failure);
 }
 
 class RunRecordsTest : public LogFileTest {
@@ -252,27 +238,42 @@ class RunRecordsTest : public LogFileTest {
     for (std::uint64_t i = 0; i < TelemetryRing::kCapacity + kTooMany; ++i) ring_->push({});
     for (std::uint64_t i = 0; i < hal::CanLogRing::kCapacity + kTooMany + 1; ++i) bus_ring_->on_frame(0, {});
   }
+  RunRecords::Setup setup(int joint_count, bool buses) const {
+    return {.folder = folder_,
+            .start = std::chrono::system_clock::time_point(std::chrono::seconds(1'796'049'055)),
+            .joint_count = joint_count,
+            .buses = buses,
+            .bus_names = {"can0"}};
+  }
+  static bool is_link_to(const std::filesystem::path& link, const std::filesystem::path& target) {
+    return std::filesystem::is_symlink(link) && std::filesystem::read_symlink(link) == target;
+  }
+
   std::unique_ptr<TelemetryRing> ring_ = std::make_unique<TelemetryRing>();
   std::unique_ptr<hal::CanLogRing> bus_ring_ = std::make_unique<hal::CanLogRing>();
+  const std::filesystem::path run_ = folder_ / "20261130T143055Z";
 };
 
 TEST_F(RunRecordsTest, WritesNothingWithoutAFolder) {
-  const RunRecords records({.folder = "", .joint_count = 2, .buses = true, .bus_names = {"can0"}}, *ring_, *bus_ring_);
+  RunRecords::Setup none = setup(2, true);
+  none.folder.clear();
+  const RunRecords records(none, *ring_, *bus_ring_);
   fill();
   records.drain();
   EXPECT_EQ(records.telemetry(), nullptr);
   EXPECT_EQ(records.buses(), nullptr);
   EXPECT_EQ(records.summary(), "");
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
 TEST_F(RunRecordsTest, WritesTheTelemetryAloneUnlessTheBusesAreAskedFor) {
-  const RunRecords records({.folder = folder_, .joint_count = 2, .bus_names = {"can0"}}, *ring_, *bus_ring_);
+  const RunRecords records(setup(2, false), *ring_, *bus_ring_);
   fill();
   records.drain();
   EXPECT_EQ(records.buses(), nullptr);
   EXPECT_EQ(records.summary(),
-            (folder_ / "telemetry.csv").string() + ": " + std::to_string(TelemetryRing::kCapacity) + " rows, 5 lost\n");
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "can.log"));
+            (run_ / "telemetry.csv").string() + ": " + std::to_string(TelemetryRing::kCapacity) + " rows, 5 lost\n");
+  EXPECT_FALSE(std::filesystem::exists(run_ / "can.log"));
   const std::string text = content("telemetry.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), 1 + TelemetryRing::kCapacity);
   EXPECT_NE(text.find(",q2_rad,qd1_rad_s,"), std::string::npos);
@@ -280,7 +281,7 @@ TEST_F(RunRecordsTest, WritesTheTelemetryAloneUnlessTheBusesAreAskedFor) {
 
 /// Without a number of joints it has none, and without a request no log of the buses.
 TEST_F(RunRecordsTest, HasNoJointsAndNoBusesUnlessItIsTold) {
-  const RunRecords records({.folder = folder_, .bus_names = {"can0"}}, *ring_, *bus_ring_);
+  const RunRecords records(setup(0, false), *ring_, *bus_ring_);
   ring_->push({});
   records.drain();
   EXPECT_EQ(records.buses(), nullptr);
@@ -289,28 +290,95 @@ TEST_F(RunRecordsTest, HasNoJointsAndNoBusesUnlessItIsTold) {
 
 /// Lines that the rings lost and lines that the disk did not take count together.
 TEST_F(RunRecordsTest, CountsWhatWasLostOnTheWayAndByTheDisk) {
-  std::filesystem::create_symlink("/dev/full", folder_ / "telemetry.csv");
-  std::filesystem::create_symlink("/dev/full", folder_ / "can.log");
-  const RunRecords records({.folder = folder_, .joint_count = 2, .buses = true, .bus_names = {"can0"}}, *ring_,
-                           *bus_ring_);
+  const RunRecords records(setup(2, true), *ring_, *bus_ring_);
   fill();
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit usual{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &usual), 0);
+  const rlimit full{0, usual.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
   records.drain();
+  ::setrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, before);
   ASSERT_NE(records.telemetry(), nullptr);
   ASSERT_NE(records.buses(), nullptr);
-  EXPECT_EQ(records.summary(), (folder_ / "telemetry.csv").string() + ": 0 rows, " +
+  EXPECT_EQ(records.summary(), (run_ / "telemetry.csv").string() + ": 0 rows, " +
                                    std::to_string(TelemetryRing::kCapacity + 5) + " lost\n" +
-                                   (folder_ / "can.log").string() + ": 0 frames, " +
+                                   (run_ / "can.log").string() + ": 0 frames, " +
                                    std::to_string(hal::CanLogRing::kCapacity + 6) + " lost\n");
 }
 
 TEST_F(RunRecordsTest, DrainsBothRings) {
-  const RunRecords records({.folder = folder_, .joint_count = 1, .buses = true, .bus_names = {"can0"}}, *ring_,
-                           *bus_ring_);
+  const RunRecords records(setup(1, true), *ring_, *bus_ring_);
   ring_->push({});
   bus_ring_->on_frame(0, {});
   records.drain();
-  EXPECT_EQ(records.summary(), (folder_ / "telemetry.csv").string() + ": 1 rows, 0 lost\n" +
-                                   (folder_ / "can.log").string() + ": 1 frames, 0 lost\n");
+  EXPECT_EQ(records.summary(), (run_ / "telemetry.csv").string() + ": 1 rows, 0 lost\n" + (run_ / "can.log").string() +
+                                   ": 1 frames, 0 lost\n");
+}
+
+/// Readers find the newest run by links. A log that the newest run does not write is missing there, not the one of
+/// another run.
+TEST_F(RunRecordsTest, LeadsReadersToTheNewestRun) {
+  { const RunRecords first(setup(1, true), *ring_, *bus_ring_); }
+  EXPECT_TRUE(is_link_to(folder_ / "latest", run_.filename()));
+  for (const char* name : {"telemetry.csv", "can.log", "can0.pcap"}) {
+    EXPECT_TRUE(is_link_to(folder_ / name, std::filesystem::path("latest") / name)) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  }
+  RunRecords::Setup of_hand = setup(1, false);
+  of_hand.hand = true;
+  const RunRecords second(of_hand, *ring_, *bus_ring_);
+  EXPECT_TRUE(is_link_to(folder_ / "latest", run_.filename().string() + "-2")) << "in the same second";
+  EXPECT_EQ(content("hand.csv"), "t_s,hand_J\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "can.log")) << "this run has none";
+  EXPECT_TRUE(std::filesystem::exists(run_ / "can.log"));
+}
+
+TEST_F(RunRecordsTest, LeavesEarlierRunsAsTheyWere) {
+  const auto one_run = [&](std::int64_t t_ns) {
+    TelemetryRecord record;
+    record.times.deadline_ns = t_ns;
+    const RunRecords records(setup(1, true), *ring_, *bus_ring_);
+    ring_->push(record);
+    bus_ring_->on_frame(0, {{0x181, 8, false, {}}, t_ns, true});
+    records.drain();
+  };
+  one_run(1'000'000);
+  const std::vector<std::string> names{"telemetry.csv", "can.log", "can0.pcap"};
+  std::vector<std::string> before;
+  for (const std::string& name : names) before.push_back(content(run_ / name));
+  one_run(2'000'000);
+  one_run(3'000'000);
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(content(run_ / names[i]), before[i]) << names[i];
+  EXPECT_EQ(content("telemetry.csv"), content(run_.string() + "-3/telemetry.csv"));
+}
+
+/// An older version overwrote whatever such a link led to.
+TEST_F(RunRecordsTest, RefusesALinkOrFileInThePlaceOfALog) {
+  std::ofstream(folder_ / "precious") << "kept";
+  for (const bool is_link : {true, false}) {
+    for (const char* name : {"telemetry.csv", "can.log", "can0.pcap"}) {
+      const std::filesystem::path logs = folder_ / "logs";
+      std::filesystem::create_directory(logs);
+      if (is_link) std::filesystem::create_symlink("../precious", logs / name);
+      if (!is_link) std::ofstream(logs / name) << "of an older version";
+      RunRecords::Setup refused = setup(1, true);
+      refused.folder = logs;
+      try {
+        const RunRecords records(refused, *ring_, *bus_ring_);
+        ADD_FAILURE() << name;
+      } catch (const command::Failure& failure) {
+        EXPECT_EQ(failure.exit_code(), command::ExitCode::kIo);
+        EXPECT_EQ(failure.what(), (logs / name).string() + ": is not a link to latest/" + name +
+                                      ", perhaps a log of an older version; move it away or name another folder");
+      }
+      EXPECT_EQ(content("precious"), "kept");
+      EXPECT_EQ(content(logs / name), is_link ? "kept" : "of an older version");
+      EXPECT_FALSE(std::filesystem::exists(logs / run_.filename())) << "no run has begun";
+      std::filesystem::remove_all(logs);
+    }
+  }
 }
 
 }  // namespace
