@@ -202,8 +202,35 @@ std::uint8_t ControlCycle::limited_drives(hal::PowerRequest power) const noexcep
   return joint_bits(limited);
 }
 
+/// The joint that this cycle's reading shows the fault of; -1: none.
+int ControlCycle::joint_of(Fault fault) const noexcept {
+  const auto first = [this](auto has_it) {
+    for (int i = 0; i < setup_.arm->joint_count; ++i) {
+      if (has_it(static_cast<std::size_t>(i))) return i;
+    }
+    return -1;
+  };
+  switch (fault) {
+    case Fault::kPositionLost: return positions_.lost_joint;
+    case Fault::kPositionJump: return positions_.jump_joint;
+    case Fault::kNotFinite: return positions_.not_finite_joint;
+    case Fault::kEncoderStuck: return positions_.stuck_joint;
+    case Fault::kAlarm: return reading_.alarm_joint;
+    case Fault::kDrivesAbsent:
+      return first([&](std::size_t i) { return reading_.state[i] == hal::DriveState::kUnavailable; });
+    case Fault::kDriveLeft: return first([&](std::size_t i) { return reading_.state[i] != hal::DriveState::kEnabled; });
+    case Fault::kTooFast: {
+      const int joint = limiter_.too_fast_joint(qd_);
+      return joint < 0 && positions_.runs_away ? positions_.jump_joint : joint;
+    }
+    case Fault::kNone: return -1;
+    default: return supervisor_.fault_joint();
+  }
+}
+
 void ControlCycle::keep(const Decision& decision) noexcept {
   record_.mode = supervisor_.mode();
+  if (record_.fault != supervisor_.fault()) record_.fault_joint = joint_of(supervisor_.fault());
   record_.fault = supervisor_.fault();
   record_.alarm = reading_.alarm;
   record_.alarm_joint = reading_.alarm_joint;

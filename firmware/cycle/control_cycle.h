@@ -55,6 +55,7 @@ struct CycleRecord {
   Fault fault = Fault::kNone;
   hal::Alarm alarm = hal::Alarm::kNone;
   int alarm_joint = -1;
+  int fault_joint = -1;  ///< joint of the fault, as of its first cycle; -1: not known, or no single joint
   Status status = Status::kOk;
   std::uint8_t warm = 0;                     ///< drives that are warm, one bit a joint
   std::uint8_t temperature_lost = 0;         ///< drives that did not answer for their temperature, one bit a joint
@@ -140,6 +141,7 @@ class ControlCycle {
   Observation observe(const LoopEvents& events, Status status) const noexcept;
   void count(const LoopEvents& events) noexcept;
   std::uint8_t limited_drives(hal::PowerRequest power) const noexcept;
+  int joint_of(Fault fault) const noexcept;
   void keep(const Decision& decision) noexcept;
 
   CycleSetup setup_;

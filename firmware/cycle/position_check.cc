@@ -24,10 +24,14 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
   for (int i = 0; i < joint_count_; ++i) {
     const auto joint = static_cast<std::size_t>(i);
     const double position = reading.position[i];
-    checked.finite = checked.finite && std::isfinite(position) && std::isfinite(reading.torque[i]);
+    const bool finite = std::isfinite(position) && std::isfinite(reading.torque[i]);
+    checked.finite = checked.finite && finite;
+    if (!finite) checked.not_finite_joint = i;
     // a constant lateness is as bad as a missing position; an age also counts skipped cycles
     lost_[joint] = reading.age[joint] == 0 ? 0 : lost_[joint] + 1;
-    checked.lost = std::max({checked.lost, lost_[joint], reading.age[joint]});
+    const std::uint32_t lost = std::max(lost_[joint], reading.age[joint]);
+    if (lost > checked.lost) checked.lost_joint = i;
+    checked.lost = std::max(checked.lost, lost);
     if (!started_) {
       accepted_[i] = q_[i] = position;
       fresh_[i] = position;
@@ -54,6 +58,7 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
       q_[i] += qd[i] * period_ * periods;
     }
     if (fresh) fresh_[i] = position;
+    if (jumps_[joint] > checked.jumps) checked.jump_joint = i;
     checked.jumps = std::max(checked.jumps, jumps_[joint]);
     checked.predicted = std::max(checked.predicted, predicted_[joint]);
   }
@@ -62,12 +67,15 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
   checked.q = q_;
   if (++since_sample_ < cycles_a_sample_) return;
   since_sample_ = 0;
-  const bool abruptly = stops_abruptly(reading);
-  checked.stuck = rests_though_pushed(reading, pushed) || abruptly;
+  const int abruptly = stops_abruptly(reading);
+  const int pushed_in_vain = rests_though_pushed(reading, pushed);
+  checked.stuck_joint = pushed_in_vain >= 0 ? pushed_in_vain : abruptly;
+  checked.stuck = checked.stuck_joint >= 0;
 }
 
-bool PositionCheck::stops_abruptly(const hal::JointReading& reading) noexcept {
-  bool found = false;
+/// Returns the joint; -1: none.
+int PositionCheck::stops_abruptly(const hal::JointReading& reading) noexcept {
+  int found = -1;
   for (int i = 0; i < joint_count_; ++i) {
     if (reading.age[static_cast<std::size_t>(i)] > 0) continue;
     Motion& motion = motion_[static_cast<std::size_t>(i)];
@@ -85,12 +93,13 @@ bool PositionCheck::stops_abruptly(const hal::JointReading& reading) noexcept {
     }
     for (std::size_t k = kMoving; k > 0; --k) motion.last[k] = motion.last[k - 1];
     motion.last[0] = position;
-    found = found || (motion.abrupt && motion.still >= kStill);
+    if (found < 0 && motion.abrupt && motion.still >= kStill) found = i;
   }
   return found;
 }
 
-bool PositionCheck::rests_though_pushed(const hal::JointReading& reading, const JointVector& pushed) noexcept {
+/// Returns the joint; -1: none.
+int PositionCheck::rests_though_pushed(const hal::JointReading& reading, const JointVector& pushed) noexcept {
   if (in_window_ == 0) {
     window_start_ = reading.position;
     rests_.fill(true);
@@ -103,10 +112,12 @@ bool PositionCheck::rests_though_pushed(const hal::JointReading& reading, const 
     rests = rests && motion == 0.0 && std::fabs(pushed[i]) > stuck_torque_[i] &&
             reading.age[static_cast<std::size_t>(i)] == 0;
   }
-  if (++in_window_ < kWindow) return false;
+  if (++in_window_ < kWindow) return -1;
   in_window_ = 0;
-  const auto* first = rests_.begin();
-  return moved_ && std::any_of(first, first + joint_count_, [](bool rests) { return rests; });
+  const auto* const first = rests_.begin();
+  const auto* const end = first + joint_count_;
+  const auto* const found = std::find(first, end, true);
+  return moved_ && found != end ? static_cast<int>(found - first) : -1;
 }
 
 }  // namespace godobject::firmware

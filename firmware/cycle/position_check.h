@@ -17,6 +17,10 @@ struct CheckedPositions {
   bool runs_away = false;               ///< a joint jumped twice in the same direction
   bool finite = true;                   ///< all fresh positions and measured torques are finite
   bool stuck{};                         ///< a position does not change although its joint should move
+  int lost_joint = -1;                  ///< joint of `lost`; this and the next: -1: none
+  int jump_joint = -1;                  ///< joint of `jumps`
+  int not_finite_joint = -1;            ///< a joint with a reading that is not finite
+  int stuck_joint = -1;                 ///< joint of `stuck`
 };
 
 /// Checks the drives' readings against the motion that an arm is capable of.
@@ -71,8 +75,8 @@ class PositionCheck {
               CheckedPositions& checked) noexcept;
 
  private:
-  bool stops_abruptly(const hal::JointReading& reading) noexcept;
-  bool rests_though_pushed(const hal::JointReading& reading, const JointVector& pushed) noexcept;
+  int stops_abruptly(const hal::JointReading& reading) noexcept;
+  int rests_though_pushed(const hal::JointReading& reading, const JointVector& pushed) noexcept;
 
   int joint_count_;
   double period_;

@@ -12,8 +12,11 @@ TorqueLimiter::TorqueLimiter(const ArmModel& arm, const TorqueLimits& limits) no
   }
 }
 
-bool TorqueLimiter::too_fast(const JointVector& qd) const noexcept {
-  return (qd.cwiseAbs().array() > limits_.joint_speed_stop * speed_limit_.array()).any();
+int TorqueLimiter::too_fast_joint(const JointVector& qd) const noexcept {
+  for (int i = 0; i < static_cast<int>(kMaxJoints); ++i) {
+    if (std::fabs(qd[i]) > limits_.joint_speed_stop * speed_limit_[i]) return i;
+  }
+  return -1;
 }
 
 /// Fades out the torque along the motion of a fast joint.

@@ -33,7 +33,10 @@ class TorqueLimiter {
   JointVector apply(const Decision& decision, const ComputedTorque& computed, const JointVector& qd) noexcept;
 
   /// True if a joint is above its stop speed: a fault.
-  bool too_fast(const JointVector& qd) const noexcept;
+  bool too_fast(const JointVector& qd) const noexcept { return too_fast_joint(qd) >= 0; }
+
+  /// The first joint above its stop speed; -1: none.
+  int too_fast_joint(const JointVector& qd) const noexcept;
 
   const JointVector& pushed() const noexcept {
     return pushed_;

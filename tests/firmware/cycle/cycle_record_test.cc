@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -497,6 +498,46 @@ TEST_F(CycleRecordTest, RepeatsTheSignTestOnlyAfterADriveHasRestarted) {
   EXPECT_EQ(mode_after(hal::Alarm::kHeartbeatLost), Mode::kArmed);
   run_to(Mode::kRunning);
   EXPECT_EQ(mode_after(hal::Alarm::kNodeReset), Mode::kSignTest);
+}
+
+/// The record of a stop names the joint that shows the fault, until the fault is reset.
+TEST_F(CycleRecordTest, NamesTheJointOfTheFault) {
+  using Harm = std::function<void(hal::JointReading&)>;
+  struct Case {
+    Fault fault;
+    int joint;
+    Harm harm;
+  };
+  double far = 0.0;
+  const std::vector<Case> cases{
+      {Fault::kPositionLost, 2, [](hal::JointReading& reading) { ++reading.age[2]; }},
+      {Fault::kNotFinite, 5, [](hal::JointReading& reading) { reading.position[5] = std::nan(""); }},
+      {Fault::kNotFinite, 1, [](hal::JointReading& reading) { reading.torque[1] = HUGE_VAL; }},
+      {Fault::kPositionJump, 3, [&](hal::JointReading& reading) { reading.position[3] = q0_[3] + (far = 0.1 - far); }},
+      {Fault::kDriveLeft, 6, [](hal::JointReading& reading) { reading.state[6] = hal::DriveState::kFault; }},
+      {Fault::kAlarm, 4,
+       [](hal::JointReading& reading) {
+         reading.alarm = hal::Alarm::kDriveError;
+         reading.alarm_joint = 4;
+       }},
+      {Fault::kTooFast, 1, [](hal::JointReading& reading) { reading.position[1] += 2.2e-3; }},
+      {Fault::kEmergencyStop, -1, [](hal::JointReading& reading) { reading.emergency_stop = true; }},
+  };
+  for (const Case& one : cases) {
+    drives_ = FakeDrives(7);
+    drives_.reading.position = q0_;
+    make();
+    run_to(Mode::kRunning);
+    EXPECT_EQ(record().fault_joint, -1);
+    for (int i = 0; i < 50 && record().fault == Fault::kNone; ++i) {
+      one.harm(drives_.reading);
+      cycle_->run_once({});
+    }
+    EXPECT_EQ(record().fault, one.fault);
+    EXPECT_EQ(record().fault_joint, one.joint) << static_cast<int>(one.fault);
+    cycle_->run_once({});
+    EXPECT_EQ(record().fault_joint, one.joint) << "it is that of the first cycle";
+  }
 }
 
 TEST_F(CycleRecordTest, StopsForAnyAlarm) {
