@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,6 +12,8 @@
 #include "core/device/velocity_estimator.h"
 #include "firmware/configuration/pose_key.h"
 #include "toolchain/command_line/solver_names.h"
+#include "toolchain/files/input_file.h"
+#include "toolchain/files/text_file.h"
 #include "toolchain/files/toml_file.h"
 #include "toolchain/files/toml_table.h"
 
@@ -101,12 +104,15 @@ void read_start(const TomlTable& table, ControllerConfig::Start& start) {
 }  // namespace
 
 ControllerConfig read_controller_file(const std::filesystem::path& file) {
-  const toml::table root = files::parse_toml_file(file);
+  files::require_regular_input(file);
+  std::string text = files::read_text(file);
+  const toml::table root = files::parse_toml(text, file.string());
   files::allow_tables(root, file,
                       {"scene", "device", "workspace", "loop", "limits", "engage", "start", "gains", "passivity",
                        "telemetry", "simulation"});
   const auto table = [&](const char* name) { return TomlTable(root, name, file); };
   ControllerConfig config;
+  config.text = std::move(text);
   read_scene(table("scene"), file, config);
 
   const TomlTable device = table("device");

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "core/device/workspace_mapping.h"
 #include "core/scene/scene_view.h"
@@ -24,6 +25,7 @@ struct ControllerConfig {
   } scene;
 
   Device device;
+  std::string text;  ///< of the file, as it was read
 
   /// With the arm at `posture` the moving mesh is at `start` in the scene. `turn` is R_WR: it rotates directions of the
   /// room R into the scene W.
@@ -87,6 +89,13 @@ struct ControllerConfig {
     std::filesystem::path folder;  ///< of the logs; empty: nothing is written
     int every = 1;                 ///< cycles a row
     bool bus = false;              ///< log the frames on the buses, too
+    /// Of the records of stops, which no key of the file names; empty: beside the logs, if there are any.
+    std::filesystem::path incidents;
+    bool needs_incidents = true;  ///< false: a run goes on if `incidents` cannot be made
+    std::string program;          ///< name and version of the program, for the records
+
+    /// True: stops are recorded, or the buses are logged.
+    bool records_frames() const { return bus || !folder.empty() || !incidents.empty(); }
   } telemetry;
 
   /// The simulated arm and the hand that holds its tool.

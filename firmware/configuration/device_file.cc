@@ -10,6 +10,8 @@
 #include "firmware/configuration/cia402_keys.h"
 #include "firmware/configuration/pose_key.h"
 #include "toolchain/command_line/failure.h"
+#include "toolchain/files/input_file.h"
+#include "toolchain/files/text_file.h"
 #include "toolchain/files/toml_file.h"
 #include "toolchain/files/toml_table.h"
 
@@ -125,9 +127,12 @@ void require_resolution(const TomlTable& table, const ArmJoint& joint, const hal
 }  // namespace
 
 Device read_device_file(const std::filesystem::path& file) {
-  const toml::table root = files::parse_toml_file(file);
+  files::require_regular_input(file);
+  std::string text = files::read_text(file);
+  const toml::table root = files::parse_toml(text, file.string());
   files::allow_tables(root, file, {"arm", "torque", "bus", "joint", "tool", "payload"});
   Device device;
+  device.text = std::move(text);
   const TomlTable arm(root, "arm", file);
   arm.allow({"name", "base", "gravity"});
   device.name = arm.text("name");

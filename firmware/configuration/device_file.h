@@ -11,6 +11,7 @@ namespace godobject::firmware {
 /// An arm and its drives: the contents of a file in firmware/devices.
 struct Device {
   std::string name;
+  std::string text;  ///< of the file, as it was read
   ArmModel model;
   JointTorqueParameters torque;
   hal::BusLayout bus;  ///< without `compute`, which the controller file has

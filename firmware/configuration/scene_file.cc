@@ -87,6 +87,9 @@ void SceneFile::read(int descriptor, const std::filesystem::path& file) {
   }
   const Status status = SceneView::open({bytes_, size_}, scene_);
   if (status != Status::kOk) refuse(file, describe(status));
+  format::Header header{};
+  std::memcpy(&header, bytes_, sizeof header);
+  checksum_ = header.checksum;
   ::mprotect(bytes_, size_, PROT_READ);
   locked_ = ::mlock(bytes_, size_) == 0;
 }

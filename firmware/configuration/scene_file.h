@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -25,6 +26,9 @@ class SceneFile {
 
   const SceneView& scene() const noexcept { return scene_; }
   std::size_t size() const noexcept { return size_; }
+
+  /// The checksum in the header. It covers the checksums of all sections, so it tells two images apart.
+  std::uint64_t checksum() const noexcept { return checksum_; }
   bool locked() const noexcept { return locked_; }
 
  private:
@@ -32,6 +36,7 @@ class SceneFile {
 
   std::byte* bytes_ = nullptr;
   std::size_t size_{};
+  std::uint64_t checksum_{};
   bool locked_{};
   SceneView scene_;
 };

@@ -1,13 +1,18 @@
 #include "firmware/controller/control_command.h"
 
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "firmware/controller/session.h"
 #include "firmware/controller/warning.h"
+#include "firmware/drives/drive_family.h"
 #include "firmware/machine/signals.h"
+#include "godobject/version.h"
 #include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/source_commit.h"
 
 namespace godobject::firmware {
 namespace {
@@ -47,9 +52,27 @@ positions q, velocities qd and torques; device pose d and god object g of the mo
 the hand along the axes of the room; depth; energy absorbed from arm and hand; damping injected. In virtual time hand.csv has
 the work of the simulated hand on the tool since the start. Users outside the group may not read these files.
 
+A stop by a fault is recorded: the 30 s before it and up to 60 s after it, with each cycle and all frames. The record is in the
+folder incident of the run. Without --log a real arm's is in $STATE_DIRECTORY/incidents, $XDG_STATE_HOME/godobject/incidents or
+~/.local/state/godobject/incidents, and a simulated arm has none. --incidents DIR names another folder. godobject-controller
+explain FOLDER says what happened.
+
 Exit codes: 0 done, 64 usage, 65 bad scene image or path, or an image without the requested solver or friction, 66 an input is
 missing or a configuration file cannot be read, 69 drives or bus not available, or stopped by a fault, 74 cannot write, 77 no
 right to read the scene image, to a CAN interface or to real-time work, 78 bad configuration.)";
+
+/// The folder in which this user's programs keep their state: of the service, of the user.
+std::filesystem::path state_folder() {
+  const auto variable = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return std::string(value == nullptr ? "" : value);
+  };
+  const std::string of_service = variable("STATE_DIRECTORY");
+  if (!of_service.empty()) return of_service.substr(0, of_service.find(':'));
+  const std::string of_user = variable("XDG_STATE_HOME");
+  const std::filesystem::path folder = of_user.empty() ? variable("HOME") + "/.local/state" : of_user;
+  return folder / "godobject";
+}
 
 }  // namespace
 
@@ -63,6 +86,9 @@ ControlCommand::ControlCommand(CLI::App& app, std::string& transport) : transpor
       ->check(CLI::Range(0.001, 1e7))
       ->option_text("SECONDS");
   app.add_option("--log", log_, "folder for the logs, instead of telemetry.folder")->type_name("DIR");
+  app.add_option("--incidents", incidents_,
+                 "folder for the records of stops; default: beside the logs, of a real arm the state folder")
+      ->type_name("DIR");
   app.add_flag("--real-time", real_time_, "simulation: keep to the clock, on a real-time thread, as loop.real_time");
   app.add_flag("--log-bus", log_bus_, "also logs the frames on the buses to that folder, as telemetry.bus");
 }
@@ -72,6 +98,9 @@ ControllerConfig ControlCommand::read_configuration() const {
   if (!scene_.empty()) config.scene.image = scene_;
   if (!log_.empty()) config.telemetry.folder = log_;
   if (log_bus_) config.telemetry.bus = true;
+  config.telemetry.program =
+      fmt::format("godobject-controller {}, commit {}", GODOBJECT_VERSION, command::kSourceCommit);
+  choose_incidents(config.telemetry);
   if (config.telemetry.bus && config.telemetry.folder.empty()) {
     throw Failure(ExitCode::kUsage, "--log-bus has no folder to write to; add --log DIR or telemetry.folder");
   }
@@ -80,6 +109,14 @@ ControllerConfig ControlCommand::read_configuration() const {
     throw Failure(ExitCode::kBadConfig, fmt::format("{}: scene.image is missing; add it or give --scene", file_));
   }
   return config;
+}
+
+/// Stops of a real arm are recorded in any case.
+void ControlCommand::choose_incidents(ControllerConfig::Telemetry& telemetry) const {
+  telemetry.incidents = incidents_;
+  if (!incidents_.empty() || !telemetry.folder.empty() || transport_ == kSimulatedTransport) return;
+  telemetry.incidents = state_folder() / "incidents";
+  telemetry.needs_incidents = false;
 }
 
 void ControlCommand::run() const {

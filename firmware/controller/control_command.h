@@ -20,12 +20,14 @@ class ControlCommand {
 
  private:
   ControllerConfig read_configuration() const;
+  void choose_incidents(ControllerConfig::Telemetry& telemetry) const;
 
   std::string& transport_;
   const CLI::Option* file_option_ = nullptr;  // not required: a subcommand does without
   std::string file_;
   std::string scene_;
   std::string log_;
+  std::string incidents_;
   bool log_bus_ = false;
   bool real_time_ = false;
   std::optional<double> duration_;

@@ -13,6 +13,7 @@
 #include "firmware/controller/drive_choice.h"
 #include "firmware/controller/operator_notice.h"
 #include "firmware/controller/real_time_thread.h"
+#include "firmware/controller/run_facts.h"
 #include "firmware/controller/run_summary.h"
 #include "firmware/controller/start_checks.h"
 #include "firmware/controller/warning.h"
@@ -54,7 +55,7 @@ Session::Session(const ControllerConfig& config, const std::string& transport)
   link_ = family->connect({.transport = transport,
                            .config = &config_,
                            .placement = &placement_,
-                           .tap = config_.telemetry.bus ? &bus_ring_ : nullptr});
+                           .tap = config_.telemetry.records_frames() ? &bus_ring_ : nullptr});
   for (const std::string& line : link_->warnings()) warn(line);
   start_cycle();
 }
@@ -123,16 +124,11 @@ std::uint64_t Session::measured_budget(const CycleSetup& setup, double seconds) 
 
 std::string Session::run(const std::optional<double>& duration, RunRequests& requests) {
   hal::MonotonicClock stopwatch;
-  RunRecords records({.folder = config_.telemetry.folder,
-                      .start = std::chrono::system_clock::now(),
-                      .joint_count = config_.device.model.joint_count,
-                      .buses = config_.telemetry.bus,
-                      .bus_names = link_->bus_names(),
-                      .hand = !link_->real_time()},
-                     ring_, bus_ring_);
+  RunRecords records(records_setup(), ring_, bus_ring_);
   if (run_loop(run_setup(duration, stopwatch), requests, records)) {
     fmt::print("{}",
                run_summary(report_, cycle_->counters(), config_.device.bus.period, link_->statistics(), page_faults_));
+    records.write_words(describe_stop());
     fmt::print("{}", records.summary());
     if (link_->real_time() && report_.beyond_plan > 0) {
       warn(fmt::format(
@@ -146,6 +142,22 @@ std::string Session::run(const std::optional<double>& duration, RunRequests& req
   return describe_stop();
 }
 
+RunRecords::Setup Session::records_setup() const {
+  const auto now = std::chrono::system_clock::now();
+  const ControllerConfig::Telemetry& telemetry = config_.telemetry;
+  return {.folder = telemetry.folder,
+          .incidents = telemetry.incidents,
+          .needs_incidents = telemetry.needs_incidents,
+          .start = now,
+          .joint_count = config_.device.model.joint_count,
+          .every = static_cast<std::uint32_t>(telemetry.every),
+          .buses = telemetry.bus,
+          .bus_names = link_->bus_names(),
+          .hand = !link_->real_time(),
+          .facts = run_facts(config_, image_, run_name(now), link_->bus_names()),
+          .say = warn};
+}
+
 RunSetup Session::run_setup(const std::optional<double>& duration, hal::Clock& stopwatch) const {
   std::optional<double> seconds = duration;
   const SimulatedArm* simulated = link_->simulated_arm();
@@ -156,7 +168,6 @@ RunSetup Session::run_setup(const std::optional<double>& duration, hal::Clock& s
   const double period = config_.device.bus.period;
   setup.period_ns = std::llround(1e9 * period);
   setup.cycles = seconds ? static_cast<std::uint64_t>(*seconds / period + 1e-6) : 0;
-  setup.every = static_cast<std::uint32_t>(config_.telemetry.every);
   setup.stopwatch = &stopwatch;
   setup.compute_ns = std::llround(1e9 * config_.loop.compute);
   return setup;
@@ -171,8 +182,7 @@ bool Session::run_loop(const RunSetup& setup, RunRequests& requests, RunRecords&
   };
   if (link_->real_time()) {
     run_beside("godobject-controller: notices for the operator", notice);
-    if (records.telemetry() != nullptr) run_beside("godobject-controller: telemetry", *records.telemetry());
-    if (records.buses() != nullptr) run_beside("godobject-controller: the log of the buses", *records.buses());
+    if (records.any()) run_beside("godobject-controller: the records", records);
     set_up_loop_thread(config_.loop, link_->simulated_arm() != nullptr);
   }
   const std::unique_ptr<hal::Clock> clock = link_->make_clock();

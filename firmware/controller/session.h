@@ -59,6 +59,7 @@ class Session {
   void start_cycle();
   std::uint64_t work_budget(const CycleSetup& setup) const;
   std::uint64_t measured_budget(const CycleSetup& setup, double seconds) const;
+  RunRecords::Setup records_setup() const;
   RunSetup run_setup(const std::optional<double>& duration, hal::Clock& stopwatch) const;
   bool run_loop(const RunSetup& setup, RunRequests& requests, RunRecords& records);
   void run_accompanied(const RunSetup& setup, hal::Clock& clock, RunRequests& requests, Companion& companion);

@@ -16,7 +16,6 @@ namespace godobject::firmware {
 struct RunSetup {
   std::int64_t period_ns = 1'000'000;  ///< T
   std::uint64_t cycles = 0;            ///< cycles until the run ends; 0: no limit
-  std::uint32_t every = 1;             ///< cycles a telemetry record
   /// The machine's clock, to measure computing time; the loop's own clock stands still meanwhile in virtual time.
   hal::Clock* stopwatch = nullptr;
   std::int64_t compute_ns = 0;  ///< computing time in the bus plan
@@ -92,7 +91,7 @@ void run_controller(const RunSetup& setup, hal::Clock& clock, ControlCycle& cycl
       },
       [&](const CycleTimes& times) {
         detail::watch(cycle.record(), report);
-        if (cycles % setup.every == 0) ring.push({times, cycle.record()});
+        ring.push({times, cycle.record()});
         reader();
       });
 }

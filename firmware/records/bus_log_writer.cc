@@ -79,16 +79,12 @@ void BusLogWriter::add_bus(const std::string& interface, LogFile packets) {
   buses_.back().file.write(pcap_header(), 0);
 }
 
-void BusLogWriter::drain() {
-  hal::LoggedFrame logged;
-  while (ring_.pop(logged)) {
-    Bus& bus = buses_.at(static_cast<std::size_t>(logged.bus));
-    append_candump_line(logged.received, bus.name, text_);
-    append_pcap_packet(logged.received, bus.packets);
-    ++bus.count;
-    if (++lines_ == kFramesAtOnce) write_all();
-  }
-  write_all();
+void BusLogWriter::add(const hal::LoggedFrame& logged) {
+  Bus& bus = buses_.at(static_cast<std::size_t>(logged.bus));
+  append_candump_line(logged.received, bus.name, text_);
+  append_pcap_packet(logged.received, bus.packets);
+  ++bus.count;
+  if (++lines_ == kFramesAtOnce) flush();
 }
 
 std::uint64_t BusLogWriter::lost() const noexcept {
@@ -97,7 +93,7 @@ std::uint64_t BusLogWriter::lost() const noexcept {
   return std::max(text_file_.lost(), of_buses);
 }
 
-void BusLogWriter::write_all() {
+void BusLogWriter::flush() {
   text_file_.write(text_, lines_);
   text_.clear();
   lines_ = 0;

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <stop_token>
 #include <string>
 #include <utility>
 
@@ -24,7 +23,7 @@ std::string pcap_header();
 /// identifier in network order.
 void append_pcap_packet(const hal::ReceivedFrame& received, std::string& bytes);
 
-/// Writes the frames of a ring to can.log, all buses in the format of `candump -L`, and to INTERFACE.pcap, one file a
+/// Writes frames to can.log, all buses in the format of `candump -L`, and to INTERFACE.pcap, one file a
 /// bus. A full or stalled disk costs frames, which are counted, and nothing else.
 class BusLogWriter {
  public:
@@ -33,17 +32,17 @@ class BusLogWriter {
   /// The name of the file with the packets of an interface.
   static std::string packet_file_name(const std::string& interface) { return interface + ".pcap"; }
 
-  /// `text`: file for the lines. The ring outlives this.
-  BusLogWriter(LogFile text, hal::CanLogRing& ring) : ring_(ring), text_file_(std::move(text)) {}
+  /// `text`: file for the lines.
+  explicit BusLogWriter(LogFile text) : text_file_(std::move(text)) {}
 
   /// Adds the next bus, bus 0 first. `packets`: file for its packets; writes the header.
   void add_bus(const std::string& interface, LogFile packets);
 
-  /// Writes all frames that are in the ring.
-  void drain();
+  /// Takes the next frame.
+  void add(const hal::LoggedFrame& logged);
 
-  /// Drains every 50 ms until it is asked to stop: the work of a thread beside the loop.
-  void run(const std::stop_token& stop) { drain_until_stopped(*this, stop); }
+  /// Writes the frames that were added.
+  void flush();
 
   const std::filesystem::path& file() const noexcept { return text_file_.path(); }  ///< can.log
   std::uint64_t written() const noexcept { return text_file_.written(); }           ///< frames in can.log
@@ -57,9 +56,6 @@ class BusLogWriter {
     std::uint64_t count = 0;
   };
 
-  void write_all();
-
-  hal::CanLogRing& ring_;
   LogFile text_file_;
   std::string text_;
   std::uint64_t lines_ = 0;

@@ -66,6 +66,21 @@ std::string run_name(std::chrono::system_clock::time_point start) {
                      utc.tm_min, utc.tm_sec);
 }
 
+void require_record_folder(const fs::path& folder) {
+  make_folders(folder);
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return;
+  throw Failure(ExitCode::kIo,
+                fmt::format("{}: cannot be written ({}); name another folder", folder.string(), std::strerror(errno)));
+}
+
+std::uintmax_t room_on_disk(fs::path folder) {
+  std::error_code error;
+  folder = fs::absolute(folder, error);
+  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  const fs::space_info space = fs::space(folder, error);
+  return error ? 0 : space.available;
+}
+
 RecordFolder::RecordFolder(const fs::path& parent, const std::string& name) {
   make_folders(parent);
   path_ = make_new_folder(parent / name);
@@ -83,6 +98,10 @@ LogFile RecordFolder::create(const std::string& name) const {
                                              std::strerror(errno)));
   }
   return LogFile(path_ / name, file);
+}
+
+void RecordFolder::write(const std::vector<RecordFile>& files) const {
+  for (const RecordFile& file : files) create(file.name).write(file.text, 1);
 }
 
 LatestLinks::LatestLinks(const fs::path& logs, const std::vector<std::string>& names) : logs_(logs) {

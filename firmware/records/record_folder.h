@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +12,15 @@ namespace godobject::firmware {
 
 /// The name of a run: its start in UTC, as `20261130T143055Z`.
 std::string run_name(std::chrono::system_clock::time_point start);
+
+/// A small file of a record, as a whole.
+struct RecordFile {
+  std::string name;
+  std::string text;
+};
+
+/// The file that tells what ran, in TOML.
+inline constexpr const char* kRunFile = "run.toml";
 
 /// A new folder for the files of one run. It never writes into a file or folder that exists, and it follows no symbolic
 /// link below `parent`. Folders get mode 0750, files 0640; the umask may take more rights away.
@@ -26,12 +36,22 @@ class RecordFolder {
   /// Makes an empty file. Throws command::Failure (kIo) if the name is taken or the file cannot be made.
   LogFile create(const std::string& name) const;
 
+  /// Makes and writes the files. Throws as `create`.
+  void write(const std::vector<RecordFile>& files) const;
+
   const std::filesystem::path& path() const noexcept { return path_; }
 
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;
 };
+
+/// Makes a folder for records and those above it, if they are missing. Throws command::Failure (kIo) if that fails, or
+/// if this process may not make a folder in it.
+void require_record_folder(const std::filesystem::path& folder);
+
+/// Room that this process may use on the disk of a folder [bytes]. The folder need not exist yet. 0: not known.
+std::uintmax_t room_on_disk(std::filesystem::path folder);
 
 /// The links by which readers find the newest run in a folder of runs: LOGS/NAME links to latest/NAME, for each of the
 /// `names`, and LOGS/latest links to the folder of the newest run. No file is replaced by a link.

@@ -1,8 +1,10 @@
 #include "firmware/records/run_records.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
-#include "firmware/records/record_folder.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {
@@ -16,27 +18,86 @@ std::vector<std::string> file_names(const RunRecords::Setup& setup) {
   return names;
 }
 
-}  // namespace
-
-RunRecords::RunRecords(const Setup& setup, TelemetryRing& ring, hal::CanLogRing& bus_ring)
-    : ring_(ring), bus_ring_(bus_ring) {
-  if (setup.folder.empty()) return;
-  const LatestLinks links(setup.folder, file_names(setup));
-  const RecordFolder run(setup.folder, run_name(setup.start));
-  telemetry_ = std::make_unique<TelemetryWriter>(run.create(TelemetryWriter::kFileName), setup.joint_count, ring);
-  if (setup.hand) hand_ = std::make_unique<HandLog>(run.create(HandLog::kFileName));
-  if (setup.buses) {
-    buses_ = std::make_unique<BusLogWriter>(run.create(BusLogWriter::kFileName), bus_ring);
-    for (const std::string& bus : setup.bus_names) {
-      buses_->add_bus(bus, run.create(BusLogWriter::packet_file_name(bus)));
-    }
+void warn_of_little_room(const RunRecords::Setup& setup) {
+  for (const std::filesystem::path& folder : {setup.folder, setup.incidents}) {
+    if (folder.empty()) continue;
+    const std::uintmax_t room = room_on_disk(folder);
+    if (room >= IncidentRecorder::kLeastRoom) continue;
+    setup.say(fmt::format("{}: the disk has {} MB left; below {} MB no stop is recorded; make room", folder.string(),
+                          room / 1'000'000, IncidentRecorder::kLeastRoom / 1'000'000));
   }
-  links.point_to(run.path().filename());
 }
 
-void RunRecords::drain() const {
-  if (telemetry_) telemetry_->drain();
-  if (buses_) buses_->drain();
+/// Makes the folder of incidents and says where it is. False: it cannot be made, and the run does not need it.
+bool announce(const RunRecords::Setup& setup) {
+  try {
+    require_record_folder(setup.incidents);
+  } catch (const command::Failure& failure) {
+    if (setup.needs_incidents) throw;
+    setup.say(fmt::format("a stop will not be recorded: {} by --incidents", failure.what()));
+    return false;
+  }
+  setup.say(fmt::format("a stop will be recorded in {}", setup.incidents.string()));
+  return true;
+}
+
+}  // namespace
+
+RunRecords::RunRecords(Setup setup, TelemetryRing& ring, hal::CanLogRing& bus_ring) : ring_(ring), bus_ring_(bus_ring) {
+  if (!setup.incidents.empty() && !announce(setup)) setup.incidents.clear();
+  warn_of_little_room(setup);
+  IncidentRecorder::Setup incidents{.folder = setup.incidents,
+                                    .name = "",
+                                    .joint_count = setup.joint_count,
+                                    .bus_names = setup.bus_names,
+                                    .facts = setup.facts,
+                                    .say = setup.say};
+  if (!setup.folder.empty()) {
+    const LatestLinks links(setup.folder, file_names(setup));
+    const RecordFolder run(setup.folder, run_name(setup.start));
+    run.write(setup.facts);
+    telemetry_ =
+        std::make_unique<TelemetryWriter>(run.create(TelemetryWriter::kFileName), setup.joint_count, setup.every);
+    if (setup.hand) hand_ = std::make_unique<HandLog>(run.create(HandLog::kFileName));
+    if (setup.buses) {
+      buses_ = std::make_unique<BusLogWriter>(run.create(BusLogWriter::kFileName));
+      for (const std::string& bus : setup.bus_names) {
+        buses_->add_bus(bus, run.create(BusLogWriter::packet_file_name(bus)));
+      }
+    }
+    links.point_to(run.path().filename());
+    if (setup.incidents.empty()) {
+      incidents.folder = run.path();
+      incidents.name = "incident";
+    }
+  }
+  if (!incidents.folder.empty()) incidents_ = std::make_unique<IncidentRecorder>(std::move(incidents));
+}
+
+void RunRecords::take() {
+  TelemetryRecord record;
+  while (ring_.pop(record)) {
+    if (telemetry_) telemetry_->add(record);
+    if (incidents_) incidents_->add(record);
+  }
+  hal::LoggedFrame frame;
+  while (bus_ring_.pop(frame)) {
+    if (buses_) buses_->add(frame);
+    if (incidents_) incidents_->add(frame);
+  }
+  if (telemetry_) telemetry_->flush();
+  if (buses_) buses_->flush();
+}
+
+void RunRecords::drain() {
+  if (!any()) return;
+  do {
+    take();
+  } while (incidents_ && incidents_->write_some());
+}
+
+void RunRecords::write_words(const std::string& words) {
+  if (incidents_) incidents_->write_words(words);
 }
 
 std::string RunRecords::summary() const {
@@ -49,6 +110,7 @@ std::string RunRecords::summary() const {
     text += fmt::format("{}: {} frames, {} lost\n", buses_->file().string(), buses_->written(),
                         buses_->lost() + bus_ring_.lost());
   }
+  if (incidents_) text += incidents_->summary();
   return text;
 }
 

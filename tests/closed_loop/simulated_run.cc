@@ -148,7 +148,7 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
 void SimulatedRun::run(std::int64_t count) {
   hal::MonotonicClock stopwatch;
   const RunSetup setup{
-      .cycles = static_cast<std::uint64_t>(count), .every = 1, .stopwatch = &stopwatch, .compute_ns = kCompute_ns};
+      .cycles = static_cast<std::uint64_t>(count), .stopwatch = &stopwatch, .compute_ns = kCompute_ns};
   run_controller(setup, *clock_, *cycle_, requests, *ring_, report, [this] {
     TelemetryRecord row;
     while (ring_->pop(row)) {

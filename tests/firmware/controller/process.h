@@ -49,6 +49,7 @@ class Process {
     const rlimit limit{settings.largest_file, settings.largest_file};
     const bool ready = log >= 0 && ::dup2(log, 1) == 1 && ::dup2(log, 2) == 2 && ::chdir(folder.c_str()) == 0 &&
                        ::setrlimit(RLIMIT_FSIZE, &limit) == 0;
+    ::setenv("STATE_DIRECTORY", (folder / "state").c_str(), 1);  // not the state of the user who runs the test
     if (!settings.library.empty()) {
       ::setenv("LD_PRELOAD", settings.library.c_str(), 1);
       ::setenv("GODOBJECT_FAKE_CAN", settings.interfaces.c_str(), 1);

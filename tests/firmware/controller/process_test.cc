@@ -190,9 +190,8 @@ TEST_F(ControllerProcessTest, LeavesNothingHalfWrittenButTheLastRowWhenItIsKille
   for (const auto& entry : std::filesystem::directory_iterator(killed)) {
     files[entry.path().filename()] = text(entry.path());
   }
-  ASSERT_EQ(files.size(), 2u);
-  for (const auto& [file, log] : files) {
-    EXPECT_TRUE(file == "telemetry.csv" || file == "hand.csv") << file;
+  for (const char* file : {"telemetry.csv", "hand.csv"}) {
+    const std::string& log = files[file];
     std::istringstream lines(log.substr(0, log.rfind('\n') + 1));
     std::string line;
     std::getline(lines, line);
@@ -239,6 +238,137 @@ TEST_F(ControllerProcessTest, GoesOnWhenItsFileMayNotGrow) {
   EXPECT_LE(std::filesystem::file_size(folder_ / "logs" / "telemetry.csv"), 200u * 1024u);
   EXPECT_GT(modes().size(), 100u);
   record_going_on(code);
+}
+
+/// A hand that moves faster than its stop speed 3 s after the begin.
+class IncidentProcessTest : public ControllerProcessTest {
+ protected:
+  void SetUp() override {
+    ControllerProcessTest::SetUp();
+    write_path();
+    write_controller(
+        "[start]\nsign_test = false\n[limits]\nforce = 0.5\nspeed = 0.02\nspeed_stop = 0.03\n"
+        "[simulation]\npath = \"path.csv\"\nbegin = 3.0\n");
+  }
+
+  int run(const std::vector<std::string>& arguments, const std::string& library = "") const {
+    return Process(folder_, GODOBJECT_CONTROLLER, arguments, {.library = library}).wait();
+  }
+
+  /// Lines of a file.
+  std::vector<std::string> lines(const std::filesystem::path& file) const {
+    std::istringstream stream(text(file));
+    std::vector<std::string> all;
+    for (std::string line; std::getline(stream, line);) all.push_back(line);
+    return all;
+  }
+
+  static double seconds(const std::string& row) { return std::stod(row); }
+  static std::string fault(const std::string& row) {
+    std::size_t from = 0;
+    for (int column = 0; column < 4; ++column) from = row.find(',', from) + 1;
+    return row.substr(from, row.find(',', from) - from);
+  }
+
+  /// Begins at most 30 s before the stop, contains it, and has each cycle.
+  void expect_a_record_of_the_stop(const std::filesystem::path& folder) const {
+    const std::vector<std::string> rows = lines(folder / "telemetry.csv");
+    ASSERT_GT(rows.size(), 2000u);
+    const auto stop = std::find_if(rows.begin() + 1, rows.end(), [](const auto& row) { return fault(row) == "15"; });
+    ASSERT_NE(stop, rows.end());
+    EXPECT_LE(seconds(*stop) - seconds(rows[1]), 30.0);
+    EXPECT_GT(seconds(*stop) - seconds(rows[1]), 2.0) << "the rows before";
+    EXPECT_GT(seconds(rows.back()) - seconds(*stop), 0.5) << "the rows after";
+    for (std::size_t i = 2; i < rows.size(); ++i) ASSERT_NEAR(seconds(rows[i]) - seconds(rows[i - 1]), 1e-3, 1e-9);
+    EXPECT_GT(lines(folder / "can.log").size(), 10 * rows.size()) << "seven joints on three buses";
+    EXPECT_EQ(text(folder / "controller.toml"), text("c.toml"));
+    EXPECT_EQ(text(folder / "device.toml"), text(GODOBJECT_FIRMWARE_DIR "/devices/lwr.toml"));
+    const std::string facts = text(folder / "run.toml");
+    for (const char* fact :
+         {"program = 'godobject-controller ", "machine = 'Linux", "image_checksum = '", "fault = 15"}) {
+      EXPECT_NE(facts.find(fact), std::string::npos) << fact << " in " << facts;
+    }
+    EXPECT_EQ(text(folder / "words.txt"), "stopped: hand or joint was faster than its stop speed; reset\n");
+  }
+};
+
+TEST_F(IncidentProcessTest, RecordsAStopBesideTheLogs) {
+  EXPECT_EQ(run({"c.toml", "--log", "logs"}), 69) << text("log.txt");
+  EXPECT_TRUE(says("the stop is recorded in logs/")) << text("log.txt");
+  const std::filesystem::path incident = folder_ / "logs" / "latest" / "incident";
+  expect_a_record_of_the_stop(incident);
+  EXPECT_EQ(lines("logs/telemetry.csv"), lines(incident / "telemetry.csv")) << "of a run that is shorter than 30 s";
+  using std::filesystem::perms;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::canonical(incident))) {
+    EXPECT_EQ(entry.status().permissions() & (perms::others_all | perms::group_write), perms::none) << entry.path();
+  }
+}
+
+/// The log has a row for 200 cycles, the incident each cycle.
+TEST_F(IncidentProcessTest, RecordsEachCycleWhateverTheLogHas) {
+  std::ofstream(folder_ / "c.toml", std::ios::app) << "[telemetry]\nevery = 200\n";
+  EXPECT_EQ(run({"c.toml", "--log", "logs"}), 69) << text("log.txt");
+  EXPECT_LT(lines("logs/telemetry.csv").size(), 40u);
+  expect_a_record_of_the_stop("logs/latest/incident");
+}
+
+TEST_F(IncidentProcessTest, RecordsAStopWithoutLogsWhereItIsAskedTo) {
+  EXPECT_EQ(run({"c.toml", "--incidents", "incidents"}), 69) << text("log.txt");
+  EXPECT_TRUE(says("a stop will be recorded in incidents")) << text("log.txt");
+  const std::filesystem::path incident = std::filesystem::directory_iterator(folder_ / "incidents")->path();
+  expect_a_record_of_the_stop(incident);
+  EXPECT_EQ(run({"c.toml", "--incidents", "c.toml/incidents"}), 74);
+  EXPECT_TRUE(says("c.toml/incidents: cannot make this folder")) << text("log.txt");
+}
+
+/// Tests and demos run in virtual time.
+TEST_F(IncidentProcessTest, WritesNothingInVirtualTimeUnlessItIsAskedTo) {
+  EXPECT_EQ(run({"c.toml"}), 69) << text("log.txt");
+  EXPECT_FALSE(says("record")) << text("log.txt");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    EXPECT_FALSE(entry.is_directory()) << entry.path();
+  }
+}
+
+TEST_F(IncidentProcessTest, LeavesAReadableRecordWhenItIsKilled) {
+  Process process = start({"--duration", "1e7"});
+  ASSERT_TRUE(see([&] { return says("kill -USR1 "); })) << text("log.txt");
+  process.send(SIGKILL);
+  EXPECT_EQ(process.wait(), -SIGKILL);
+  EXPECT_EQ(Process(folder_, GODOBJECT_CONTROLLER, {"explain", "logs"}, {.words = "words.txt"}).wait(), 0)
+      << text("words.txt");
+  EXPECT_NE(text("words.txt").find("fault 15: hand or joint was faster"), std::string::npos) << text("words.txt");
+  EXPECT_TRUE(text("logs/latest/incident/incident.svg").starts_with("<svg ")) << text("words.txt");
+}
+
+TEST_F(IncidentProcessTest, GoesOnWhereTheDiskIsFull) {
+  EXPECT_EQ(run({"c.toml", "--log", "logs"}, GODOBJECT_FULL_DISK_LIBRARY), 69) << text("log.txt");
+  EXPECT_TRUE(says("/incident: 0 rows, 0 frames, ")) << text("log.txt");
+  EXPECT_FALSE(says("/incident: 0 rows, 0 frames, 0 lost")) << text("log.txt");
+  EXPECT_TRUE(says("overruns 0, periods skipped 0")) << text("log.txt");
+  EXPECT_EQ(Process(folder_, GODOBJECT_CONTROLLER, {"explain", "logs"}, {.words = "words.txt"}).wait(), 65);
+  EXPECT_NE(text("words.txt").find("telemetry.csv: is empty"), std::string::npos) << text("words.txt");
+}
+
+TEST_F(IncidentProcessTest, ExplainNamesTheCureWhereThereIsNoRecord) {
+  const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::string& words) {
+    std::vector<std::string> all{"explain"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    EXPECT_EQ(run(all), code) << text("log.txt");
+    EXPECT_TRUE(says(words)) << text("log.txt");
+  };
+  refused({}, 64, "FOLDER is required");
+  refused({"none"}, 66, "none: is no folder; name the folder of a run or of an incident");
+  refused({"c.toml"}, 66, "c.toml: is no folder");
+  std::filesystem::create_directories(folder_ / "many" / "a");
+  refused({"many"}, 66, "many: has no telemetry.csv; name the folder of a run");
+  std::ofstream(folder_ / "many" / "a" / "telemetry.csv") << "a,b\n1,2\n";
+  refused({"many"}, 66, "many: has no telemetry.csv; name one of its folders, such as many/a");
+  refused({"many/a"}, 65, "many/a/telemetry.csv:1: has no column t_s; it is no telemetry");
+  EXPECT_EQ(run({"c.toml", "--incidents", "incidents"}), 69);
+  refused({std::filesystem::directory_iterator(folder_ / "incidents")->path().string(), "-o", "none/x.svg"}, 74,
+          "none/x.svg");
+  EXPECT_TRUE(says("fault 15: ")) << "the words come first: " << text("log.txt");
 }
 
 TEST_F(ControllerProcessTest, OpensNoSocketOnASimulatedBus) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -52,27 +53,35 @@ class TelemetryTest : public test::FolderTest {
     return record;
   }
 
+  /// Writes all records that are in the ring.
+  void drain(TelemetryWriter& writer) const {
+    TelemetryRecord record;
+    while (ring_->pop(record)) writer.add(record);
+    writer.flush();
+  }
+
   std::unique_ptr<TelemetryRing> ring_ = std::make_unique<TelemetryRing>();
 };
 
 TEST_F(TelemetryTest, WritesAHeaderWithUnitsAndARowARecord) {
   {
-    TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 3, *ring_);
+    TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 3, 1);
     for (int i = 0; i < 100; ++i) ring_->push(record(i));
-    writer.drain();
+    drain(writer);
     EXPECT_EQ(writer.written(), 100u);
     EXPECT_EQ(writer.lost(), 0u);
   }
   const std::vector<std::string> all = lines();
   ASSERT_EQ(all.size(), 101u);
   const auto columns = [](const std::string& line) { return 1 + std::count(line.begin(), line.end(), ','); };
-  EXPECT_EQ(columns(all[0]), 9 + 3 * 3 + 14 + 9 + 2);
+  EXPECT_EQ(columns(all[0]), 9 + 3 * 3 + 14 + 9 + 5);
   for (const std::string& line : all) EXPECT_EQ(columns(line), columns(all[0]));
   EXPECT_EQ(all[0].substr(0, 22), "t_s,late_us,compute_us");
   EXPECT_EQ(all[43].substr(0, 39), "0.042000,0.000,0.000,running,0,0,free,0");
   EXPECT_NE(all[0].find("q2_rad"), std::string::npos);
-  EXPECT_TRUE(all[0].ends_with(",depth_m,absorbed_J,injected_Ns_per_m,drives_limited,drives_warm"));
-  EXPECT_TRUE(all[43].ends_with(",-0.125,7.5,0,0"));
+  EXPECT_TRUE(all[0].ends_with(
+      ",depth_m,absorbed_J,injected_Ns_per_m,fault_joint,alarm,alarm_joint,drives_limited,drives_warm"));
+  EXPECT_TRUE(all[43].ends_with(",-0.125,7.5,0,0,0,0,0"));
 }
 
 TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
@@ -97,12 +106,15 @@ TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
   cycle.limited = 0b1010001;
   cycle.warm = 0b0001011;
   cycle.temperature_lost = 0b1000010;
+  cycle.fault_joint = 1;
+  cycle.alarm = hal::Alarm::kForeignWrite;
+  cycle.alarm_joint = 5;
   {
-    TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 2, *ring_);
+    TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 2, 1);
     EXPECT_EQ(writer.file(), folder_ / "telemetry.csv");
     ring_->push(record);
-    writer.drain();
-    writer.drain();
+    drain(writer);
+    drain(writer);
     EXPECT_EQ(writer.written(), 1u);
   }
   const std::vector<std::string> all = lines();
@@ -110,19 +122,29 @@ TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
   EXPECT_EQ(all[0],
             "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost,q1_rad,q2_rad,qd1_rad_s,qd2_rad_s,"
             "torque1_Nm,torque2_Nm,dpx_m,dpy_m,dpz_m,dqw,dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,gqy,gqz,fx_N,fy_N,"
-            "fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m,drives_limited,drives_warm");
+            "fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m,fault_joint,alarm,alarm_joint,drives_limited,"
+            "drives_warm");
   EXPECT_EQ(all[1],
             "1.234567,2.500,3.250,fade,3,0.4,contact,6,7,1.5,-2.5,3.5,-4.5,5.5,-6.5,0.1,0.2,0.3,0.5,-0.5,0.25,0.75,"
-            "-0.1,-0.2,-0.3,1,2,3,4,11,12,13,14,15,16,0.001,-0.02,21,3,4");
+            "-0.1,-0.2,-0.3,1,2,3,4,11,12,13,14,15,16,0.001,-0.02,21,2,8,6,3,4");
+}
+
+TEST_F(TelemetryTest, WritesARowForSeveralCyclesOnRequest) {
+  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 1, 7);
+  for (int i = 1; i <= 121; ++i) ring_->push(record(i));
+  drain(writer);
+  const std::vector<std::string> all = lines();
+  ASSERT_EQ(all.size(), 1u + 17u) << "cycles 7, 14, .. 119";
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_NEAR(std::stod(all[i]), 7e-3 * static_cast<double>(i), 1e-9);
 }
 
 /// Any number of rows, also at the number that one write call takes.
 TEST_F(TelemetryTest, WritesEveryRowOnceWhateverTheirNumber) {
   std::int64_t next = 0;
-  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 1, *ring_);
+  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 1, 1);
   for (const int rows : {0, 1, 63, 64, 65, 127, 128, 129, 200}) {
     for (int i = 0; i < rows; ++i) ring_->push(record(static_cast<int>(next++)));
-    writer.drain();
+    drain(writer);
     const std::vector<std::string> all = lines();
     ASSERT_EQ(all.size(), static_cast<std::size_t>(1 + next)) << rows;
     EXPECT_EQ(writer.written(), static_cast<std::uint64_t>(next));
@@ -170,9 +192,9 @@ TEST_F(TelemetryTest, LosesTheNewestAndCountsThemWhenNobodyReads) {
 
 TEST_F(TelemetryTest, CountsRowsThatAFullDiskDoesNotTake) {
   std::filesystem::create_symlink("/dev/full", folder_ / "telemetry.csv");
-  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 3, *ring_);
+  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 3, 1);
   for (int i = 0; i < 1000; ++i) ring_->push(record(i));
-  writer.drain();
+  drain(writer);
   EXPECT_EQ(writer.written(), 0u);
   EXPECT_EQ(writer.lost(), 1000u);
   EXPECT_EQ(ring_->lost(), 0u);
@@ -208,13 +230,19 @@ TEST_F(TelemetryTest, DoesNotHoldUpTheLoopWhenTheDiskStalls) {
   ASSERT_EQ(::mkfifo((folder_ / "telemetry.csv").c_str(), 0600), 0);
   const int pipe = ::open((folder_ / "telemetry.csv").c_str(), O_RDONLY | O_NONBLOCK);
   ASSERT_GE(pipe, 0);
-  auto writer = std::make_unique<TelemetryWriter>(open_log(folder_ / "telemetry.csv"), 7, *ring_);
-  std::jthread beside([&writer](const std::stop_token& stop) { writer->run(stop); });
+  auto writer = std::make_unique<TelemetryWriter>(open_log(folder_ / "telemetry.csv"), 7, 1);
+  struct Worker {
+    std::function<void()> drain;
+  };
+  std::jthread beside([&](const std::stop_token& stop) {
+    Worker worker{[&] { drain(*writer); }};
+    drain_until_stopped(worker, stop);
+  });
   EmptyWorld world;
   sim::VirtualClock clock(world);
   RunRequests requests;
   RunReport report;
-  run_controller({.cycles = kCycles, .every = 1, .stopwatch = &clock}, clock, *cycle, requests, *ring_, report, [] {});
+  run_controller({.cycles = kCycles, .stopwatch = &clock}, clock, *cycle, requests, *ring_, report, [] {});
   EXPECT_EQ(cycle->counters().overruns + cycle->counters().skipped, 0u);
   const std::uint64_t pushed = cycle->counters().cycles;
   EXPECT_GE(pushed, kCycles);

@@ -270,6 +270,7 @@ TEST_F(SimdeviceTest, IsControlledByAnotherProcessOverItsInterfaces) {
                        .wait();
   if (code == 77) GTEST_SKIP() << "no right to real-time work: " << text("log.txt");
   const std::string words = text("log.txt");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "state")) << "stops are recorded beside the logs";
   EXPECT_TRUE(code == 0 || (code == 69 && says("stopped: "))) << code << words;
   EXPECT_TRUE(says("bus.drive_delay = 0: ")) << words;
   EXPECT_TRUE(says("budget: 77 us a cycle for the god object, ")) << "interfaces are real time: " << words;
@@ -379,6 +380,9 @@ TEST_F(SimdeviceTest, EndsAControllerThatHasNoDrivesWhenItIsAskedTo) {
   if (code == 77) GTEST_SKIP() << "no right to real-time work: " << text("log.txt");
   EXPECT_EQ(code, 0) << text("log.txt");
   EXPECT_TRUE(says("ended before the drives were started; no drive was enabled")) << text("log.txt");
+  const std::filesystem::path incidents = folder_ / "state" / "incidents";
+  EXPECT_TRUE(says("a stop will be recorded in " + incidents.string())) << "of a real arm: " << text("log.txt");
+  EXPECT_TRUE(std::filesystem::is_empty(incidents));
 }
 
 }  // namespace
