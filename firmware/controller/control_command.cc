@@ -61,7 +61,7 @@ Exit codes: 0 done, 64 usage, 65 bad scene image or path, or an image without th
 missing or a configuration file cannot be read, 69 drives or bus not available, or stopped by a fault, 74 cannot write, 77 no
 right to read the scene image, to a CAN interface or to real-time work, 78 bad configuration.)";
 
-/// The folder in which this user's programs keep their state: of the service, of the user.
+/// The folder in which the programs of this service, or of this user, keep their state; empty: there is none.
 std::filesystem::path state_folder() {
   const auto variable = [](const char* name) {
     const char* const value = std::getenv(name);
@@ -70,8 +70,9 @@ std::filesystem::path state_folder() {
   const std::string of_service = variable("STATE_DIRECTORY");
   if (!of_service.empty()) return of_service.substr(0, of_service.find(':'));
   const std::string of_user = variable("XDG_STATE_HOME");
-  const std::filesystem::path folder = of_user.empty() ? variable("HOME") + "/.local/state" : of_user;
-  return folder / "godobject";
+  if (!of_user.empty()) return std::filesystem::path(of_user) / "godobject";
+  const std::string home = variable("HOME");
+  return home.empty() ? std::filesystem::path() : std::filesystem::path(home) / ".local/state/godobject";
 }
 
 }  // namespace
@@ -115,8 +116,10 @@ ControllerConfig ControlCommand::read_configuration() const {
 void ControlCommand::choose_incidents(ControllerConfig::Telemetry& telemetry) const {
   telemetry.incidents = incidents_;
   if (!incidents_.empty() || !telemetry.folder.empty() || transport_ == kSimulatedTransport) return;
-  telemetry.incidents = state_folder() / "incidents";
   telemetry.needs_incidents = false;
+  const std::filesystem::path state = state_folder();
+  if (!state.empty()) telemetry.incidents = state / "incidents";
+  if (state.empty()) warn("a stop will not be recorded: this user has no HOME; name a folder by --incidents");
 }
 
 void ControlCommand::run() const {

@@ -163,7 +163,8 @@ Moment look_back(const Incident& incident) {
 
 /// A line of the table: name, largest value, bound. `bound`: not above zero: not known.
 std::string value_line(const std::string& name, double value, double bound, const char* unit, const char* of_bound) {
-  std::string line = fmt::format("  {:<26} {:>10.4g} {:<6}", name, value, unit);
+  constexpr double kNothing = 1e-9;  // smaller values are rounding errors
+  std::string line = fmt::format("  {:<26} {:>10.4g} {:<6}", name, value < kNothing ? 0.0 : value, unit);
   if (bound > 0.0) {
     line += fmt::format(" {:>10.4g} {:<6} {}{}", bound, unit, of_bound, value > bound ? "  <- beyond" : "");
   }

@@ -198,6 +198,18 @@ TEST_F(ControllerCommandTest, NamesTheFolderOfALogThatCannotBeMade) {
   EXPECT_TRUE(says("c.toml/logs: cannot make this folder (Not a directory)")) << words_;
 }
 
+TEST_F(ControllerCommandTest, SaysThatStopsOfARealArmAreNotRecordedWithoutAHome) {
+  const std::string no_home = "env -u HOME -u XDG_STATE_HOME -u STATE_DIRECTORY";
+  const std::string line = "a stop will not be recorded: this user has no HOME; name a folder by --incidents";
+  EXPECT_EQ(run("c.toml --bus none0,none1,none2", no_home), 69);
+  EXPECT_TRUE(says(line)) << words_;
+  for (const char* arguments : {"c.toml --bus none0,none1,none2 --log logs",
+                                "c.toml --bus none0,none1,none2 --incidents i", "c.toml --duration 0.01"}) {
+    run(arguments, no_home);
+    EXPECT_FALSE(says(line)) << arguments;
+  }
+}
+
 TEST_F(ControllerCommandTest, SaysWhereItsTimeWentAndThatNothingRendersFromInside) {
   write_controller("[start]\nsign_test = false\n");
   std::string file = text("c.toml");

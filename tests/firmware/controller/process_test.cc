@@ -9,6 +9,7 @@
 #include <csignal>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <thread>
 #include <vector>
@@ -204,6 +205,26 @@ TEST_F(ControllerProcessTest, LeavesNothingHalfWrittenButTheLastRowWhenItIsKille
   EXPECT_EQ(again.wait(), 0) << text("log.txt");
   EXPECT_NE(folder_ / "logs" / std::filesystem::read_symlink(folder_ / "logs" / "latest"), killed);
   for (const auto& [file, log] : files) EXPECT_TRUE(text(killed / file) == log) << file << " has changed";
+}
+
+TEST_F(ControllerProcessTest, SharesItsFolderWithARunThatStartsAtTheSameTime) {
+  write_controller("[start]\nsign_test = false\n");
+  constexpr int kRuns = 6;
+  std::vector<std::unique_ptr<Process>> runs;
+  for (int i = 0; i < kRuns; ++i) {
+    runs.push_back(std::make_unique<Process>(folder_, GODOBJECT_CONTROLLER,
+                                             std::vector<std::string>{"c.toml", "--log", "logs", "--duration", "0.1"}));
+  }
+  for (const std::unique_ptr<Process>& run : runs) EXPECT_EQ(run->wait(), 0) << text("log.txt");
+  int folders = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "logs")) {
+    if (entry.is_symlink()) continue;
+    ++folders;
+    const std::string log = text(entry.path() / "telemetry.csv");
+    EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 1 + 101) << entry.path();
+  }
+  EXPECT_EQ(folders, kRuns);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "logs" / "telemetry.csv"));
 }
 
 TEST_F(ControllerProcessTest, OverwritesNothingByALinkInPlaceOfItsTelemetry) {
