@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <deque>
 #include <fstream>
 #include <map>
@@ -91,13 +92,14 @@ class Columns {
     if (words_.size() != count_) return false;
     good_ = true;
     row.t = number("t_s");
+    good_ = good_ && std::isfinite(row.t);
     row.late = 1e-6 * number("late_us");
     row.computing = 1e-6 * number("compute_us");
     row.mode = words_[at_.at("mode")];
-    row.fault = static_cast<Fault>(static_cast<int>(number("fault")));
-    row.lost = static_cast<int>(number("lost"));
-    if (at_.contains("fault_joint")) row.fault_joint = static_cast<int>(number("fault_joint"));
-    if (at_.contains("alarm")) row.alarm = static_cast<hal::Alarm>(static_cast<int>(number("alarm")));
+    row.fault = static_cast<Fault>(whole("fault", 255));
+    row.lost = whole("lost", 1e9);
+    if (at_.contains("fault_joint")) row.fault_joint = whole("fault_joint", kMaxJoints);
+    if (at_.contains("alarm")) row.alarm = static_cast<hal::Alarm>(whole("alarm", 255));
     for (int i = 0; i < joints_; ++i) {
       row.q[i] = number(fmt::format("q{}_rad", i + 1));
       row.qd[i] = number(fmt::format("qd{}_rad_s", i + 1));
@@ -111,6 +113,14 @@ class Columns {
   }
 
  private:
+  /// A number from 0 to `most`.
+  int whole(const std::string& column, double most) {
+    const double value = number(column);
+    const bool in_range = value >= 0.0 && value <= most;
+    good_ = good_ && in_range;
+    return in_range ? static_cast<int>(value) : 0;
+  }
+
   double number(const std::string& column) {
     double value = 0.0;
     const auto at = at_.find(column);

@@ -261,6 +261,27 @@ TEST_F(IncidentTest, RefusesWhatIsNoTelemetry) {
       << refusal(command::ExitCode::kBadData);
 }
 
+/// Rows whose time or numbers are impossible are no rows.
+TEST_F(IncidentTest, RefusesImpossibleNumbers) {
+  const std::string whole = telemetry(Fault::kAlarm, [](int, TelemetryRecord&) {});
+  const std::size_t middle = whole.find("\n1.000000,") + 1;
+  const std::size_t after = whole.find('\n', middle) + 1;
+  const std::string row = whole.substr(middle, after - middle);
+  const auto with = [&](const std::string& what, const std::string& other) {
+    std::string changed = row;
+    changed.replace(changed.find(what), what.size(), other);
+    return changed;
+  };
+  for (const std::string& changed :
+       {with("1.000000", "nan"), with("1.000000", "inf"), with(",running,0,", ",running,256,"),
+        with(",running,0,", ",running,-1,"), with(",running,0,", ",running,1e99,"),
+        with(",running,0,", ",running,nan,"), with(",running,0,", ",running,x,")}) {
+    ASSERT_NE(changed, row);
+    std::ofstream(folder_ / "telemetry.csv") << whole.substr(0, middle) << changed << whole.substr(after);
+    EXPECT_TRUE(has(refusal(command::ExitCode::kBadData), "telemetry.csv:1002: is no row")) << changed;
+  }
+}
+
 /// Any bytes end in words or in a refusal.
 TEST_F(IncidentTest, SurvivesDamage) {
   const std::string whole = telemetry(Fault::kAlarm, [](int, TelemetryRecord&) {});
