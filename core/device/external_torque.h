@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "core/device/dynamics.h"
 
 namespace godobject {
@@ -12,17 +14,17 @@ namespace godobject {
 /// follows the true torque tau_e with the time constant 1/K, if the model is right.
 class ExternalTorqueObserver {
  public:
-  /// `bandwidth`: K [1/s], below 1/`period`; `period`: T [s].
+  /// `bandwidth`: K [1/s]; `period`: T [s].
   ExternalTorqueObserver(double bandwidth, double period) noexcept : bandwidth_(bandwidth), period_(period) {}
 
   /// Forgets everything. The next `update` starts with no external torque.
   void reset() noexcept { started_ = false; }
 
-  /// A cycle: the joints have moved with the motors' torque [Nm] since the last one, and move with `qd` [rad/s] now.
-  /// `kinematics`: of the present positions. An argument that is not finite starts the observer again. Cost: 1 us for
-  /// seven joints. Real-time safe.
-  void update(const ArmModel& model, const ArmKinematics& kinematics, const JointVector& qd,
-              const JointVector& torque) noexcept;
+  /// A cycle, `periods` after the last one: since then the motors had the torque [Nm], and now the joints move with
+  /// `qd` [rad/s]. `kinematics`: of the present positions. An argument that is not finite starts the observer again.
+  /// Cost: 1 us for seven joints. Real-time safe.
+  void update(const ArmModel& model, const ArmKinematics& kinematics, const JointVector& qd, const JointVector& torque,
+              std::uint32_t periods = 1) noexcept;
 
   /// The estimate r [Nm]; zero from the joint count on.
   const JointVector& torque() const noexcept { return estimate_; }

@@ -39,6 +39,10 @@ void ExplainCommand::run() const {
   if (!incident.stop) return;
   const std::filesystem::path output =
       output_.empty() ? incident.folder / "incident.svg" : std::filesystem::path(output_);
+  if (output_.empty() && std::filesystem::is_symlink(output)) {  // whoever records may not choose what this overwrites
+    throw command::Failure(command::ExitCode::kIo,
+                           output.string() + " is a link, which is not followed; remove it, or name a file with -o");
+  }
   files::AtomicFile file(output);
   file.write(draw(incident));
   file.commit();

@@ -79,11 +79,12 @@ void ControlCycle::observe_energy() noexcept {
   if (positions_.finite) observer_.observe(positions_.q);
 }
 
-/// Compares the arm with its model while all drives give torque. A period without a cycle would look like a push.
+/// Compares the arm with its model while all drives give torque.
 void ControlCycle::watch_model(const ArmKinematics& kinematics, std::uint32_t skipped) noexcept {
   const bool enabled = summarize(reading_, setup_.arm->joint_count).all_enabled;
-  if (!enabled || skipped > 0 || !supervisor_.follows_positions()) return model_.reset();
-  model_.update(kinematics, qd_, reading_, record_.torque, contact_force() < setup_.supervisor.engage_force);
+  if (!enabled || !supervisor_.follows_positions()) return model_.reset();
+  const bool free = record_.share == 0.0 || contact_force() < setup_.supervisor.engage_force;
+  model_.update(kinematics, qd_, reading_, record_.torque, free, 1 + skipped);
 }
 
 /// Interpolates positions for periods without a cycle, since the estimator needs one a period.
@@ -178,9 +179,8 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
   seen.limited = reading_.limited;
   seen.too_fast = at_hand_.too_fast || limiter_.too_fast(qd_) || positions_.runs_away;
   seen.status = status;
-  seen.pushed_joint = model_.pushed_joint();
-  seen.is_weight = model_.is_weight();
   seen.drifts = model_.drifts();
+  seen.drifts_early = model_.drifts_early();
   seen.wrong_torque_joint = model_.wrong_torque_joint();
   seen.contact_force = contact_force();
   seen.inside = report_.outcome == Outcome::kStartInside;

@@ -34,8 +34,8 @@ const char* describe(Fault fault) noexcept {
       return "cycles computed for longer than loop.compute too often; raise it, set or lower loop.cycle_budget, or run "
              "godobject-controller doctor";
     case Fault::kNotBalanced:
-      return "the arm moved or was pushed while it engaged; keep the hand off it until it renders, or correct masses "
-             "and payload in the device file";
+      return "the arm moved by itself before it rendered, as a wrong load moves it; correct masses and payload in the "
+             "device file";
     case Fault::kDrifts:
       return "the arm drifted as a wrong load moves it; correct masses and payload in the device file, and hold it";
     case Fault::kTorqueWrong:

@@ -28,11 +28,13 @@ enum class Fault : std::uint8_t {
   kSignUndecided,   ///< a joint does not move when pushed, or the hand is not still
   kOutsideLimits,   ///< a joint is beyond its position limit before the start
   kComputedLate,    ///< cycles computed for longer than planned too often, or by too much
-  kNotBalanced,     ///< the arm moved or was pushed while it engaged, or sank as wrong masses make it
+  kNotBalanced,     ///< the torque of wrong masses moved the tool before the arm rendered
   kDrifts,          ///< the torque of wrong masses moved the tool on a long way
   kTorqueWrong,     ///< a drive's measured torque does not follow the torque sent
   kDriveLimited,    ///< a drive limited its torque by itself for too long
 };
+
+inline constexpr Fault kLastFault = Fault::kDriveLimited;
 
 /// The fault, or the alarm, as one clause with the cure. Never null.
 const char* describe(Fault fault) noexcept;

@@ -22,12 +22,17 @@ JointVector without(const JointVector& r, const JointVector& a, const JointVecto
 }  // namespace
 
 ModelWatch::ModelWatch(const ArmModel& arm, double period) noexcept
-    : arm_(arm), observer_(kBandwidth, period), torque_cycles_(cycles_in(1e-3 * kTorque_ms, period, 2)) {}
+    : arm_(arm),
+      observer_(kBandwidth, period),
+      torque_cycles_(cycles_in(1e-3 * kTorque_ms, period, kTorqueCycles)),
+      drift_cycles_(cycles_in(1e-3 * kDrift_ms, period)),
+      early_drift_cycles_(cycles_in(1e-3 * kEarlyDrift_ms, period)),
+      settle_cycles_(cycles_in(1e-3 * kSettle_ms, period)) {}
 
 void ModelWatch::reset() noexcept {
   observer_.reset();
-  pushed_joint_ = -1;
-  is_weight_ = drifts_ = drifting_ = false;
+  drifts_ = drifts_early_ = drifting_ = false;
+  to_settle_ = 0;
   lowest_.setZero();
   highest_.setZero();
   wrong_.fill(0);
@@ -35,20 +40,14 @@ void ModelWatch::reset() noexcept {
 }
 
 void ModelWatch::update(const ArmKinematics& kinematics, const JointVector& qd, const hal::JointReading& reading,
-                        const JointVector& sent, bool free) noexcept {
-  observer_.update(arm_, kinematics, qd, sent);
-  pushed_joint_ = -1;
-  for (int i = 0; i < arm_.joint_count; ++i) {
-    const double bound = kPush * arm_.joints[static_cast<std::size_t>(i)].torque;
-    if (std::abs(external_torque()[i]) > bound) pushed_joint_ = i;
-  }
-  find_weight(kinematics);
-  follow_drift(kinematics, qd, free);
+                        const JointVector& sent, bool free, std::uint32_t periods) noexcept {
+  observer_.update(arm_, kinematics, qd, sent, periods);
+  follow_drift(kinematics, qd, free, periods);
   compare_torques(reading, sent);
 }
 
-/// Wrong masses: a load at the tool, or all weights wrong by one factor.
-void ModelWatch::find_weight(const ArmKinematics& kinematics) noexcept {
+/// True if the external torque is that of wrong masses: a load at the tool, or all weights wrong by one factor.
+bool ModelWatch::is_weight(const ArmKinematics& kinematics) const noexcept {
   JointVector load = JointVector::Zero();  // torques of a kilogram at the tool
   const Vector3 p_R = kinematics.H_RM * arm_.payload.com;
   for (int i = 0; i < arm_.joint_count; ++i) {
@@ -57,20 +56,31 @@ void ModelWatch::find_weight(const ArmKinematics& kinematics) noexcept {
   }
   const JointVector& r = external_torque();
   const double size = r.norm();
-  is_weight_ = size > 0.0 && size >= kLeastLoad * load.norm() &&
-               without(r, load, gravity_torque(arm_, kinematics)).norm() <= kUnexplained * size;
+  return size > 0.0 && size >= kLeastLoad * load.norm() &&
+         without(r, load, gravity_torque(arm_, kinematics)).norm() <= kUnexplained * size;
 }
 
-void ModelWatch::follow_drift(const ArmKinematics& kinematics, const JointVector& qd, bool free) noexcept {
+void ModelWatch::follow_drift(const ArmKinematics& kinematics, const JointVector& qd, bool free,
+                              std::uint32_t periods) noexcept {
+  cycles_ += periods;
+  if (periods > 1) to_settle_ = settle_cycles_;
+  if (to_settle_ > 0) {  // the drift neither ends nor begins
+    --to_settle_;
+    drifts_ = drifts_early_ = false;
+    return;
+  }
   const double size = external_torque().norm();
-  const bool pushes = free && is_weight_ && external_torque().dot(qd) > 0.0;
+  const bool pushes = free && external_torque().dot(qd) > 0.0 && is_weight(kinematics);
   const bool goes_on = drifting_ && pushes && std::abs(size - steady_) <= kSteady * steady_;
   if (!goes_on) {
     drifting_ = pushes;
+    cycles_ = 0;
     steady_ = size;
     begin_R_ = kinematics.H_RM.translation;
   }
-  drifts_ = goes_on && (kinematics.H_RM.translation - begin_R_).norm() > kDrift;
+  const double way = goes_on ? (kinematics.H_RM.translation - begin_R_).norm() : 0.0;
+  drifts_ = way > kDrift && cycles_ >= drift_cycles_;
+  drifts_early_ = way > kEarlyDrift && cycles_ >= early_drift_cycles_;
 }
 
 /// Torques lately sent: the range forgets slowly, so that a drive may answer some cycles late.
@@ -81,6 +91,7 @@ void ModelWatch::compare_torques(const hal::JointReading& reading, const JointVe
     const auto k = static_cast<std::size_t>(i);
     lowest_[i] = std::min(sent[i], lowest_[i] + forget * (sent[i] - lowest_[i]));
     highest_[i] = std::max(sent[i], highest_[i] + forget * (sent[i] - highest_[i]));
+    if (reading.limited[k] || reading.age[k] > 0) continue;
     const double error = kTorqueError * arm_.joints[k].torque;
     const bool wrong = reading.torque[i] < lowest_[i] - error || reading.torque[i] > highest_[i] + error;
     wrong_[k] = wrong ? wrong_[k] + 1 : 0;

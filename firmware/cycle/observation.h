@@ -35,9 +35,8 @@ struct Observation {
   std::array<bool, kMaxJoints> limited{};  ///< drives that limit their torque by themselves
   bool too_fast = false;                   ///< hand or joint above its stop speed, or a joint that runs away
   Status status = Status::kOk;             ///< of velocity estimate, mapping, god object and joint torque
-  int pushed_joint = -1;                   ///< joint with a large external torque; -1: none
-  bool is_weight = false;                  ///< the external torque is that of wrong masses
   bool drifts = false;                     ///< ModelWatch::drifts
+  bool drifts_early = false;               ///< ModelWatch::drifts_early
   int wrong_torque_joint = -1;             ///< joint whose drive measures another torque than was sent; -1: none
   double contact_force = 0.0;              ///< size of the computed wrench [N]; torques count at the rotation length
   bool inside = false;                     ///< the god object started inside and is not yet outside

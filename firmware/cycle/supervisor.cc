@@ -76,8 +76,12 @@ void Supervisor::watch_limits(const Observation& seen) noexcept {
 
 /// Returns the joint that the fault is of; -1: no single one.
 int Supervisor::joint_of(Fault fault, const Observation& seen) const noexcept {
-  if (fault == Fault::kJointLimit) return seen.joint_beyond_limit;
-  return fault == Fault::kDriveLimited ? limited_joint_ : -1;
+  switch (fault) {
+    case Fault::kJointLimit: return seen.joint_beyond_limit;
+    case Fault::kDriveLimited: return limited_joint_;
+    case Fault::kTorqueWrong: return seen.wrong_torque_joint;
+    default: return -1;
+  }
 }
 
 /// Comes after the faults of the cycle, so a stop that has begun continues.
@@ -99,12 +103,6 @@ void Supervisor::enter(Mode mode) noexcept {
   in_mode_ = 1;
 }
 
-/// Enters a mode in which the joints should stay where they are.
-void Supervisor::enter_at(Mode mode, const Observation& seen) noexcept {
-  reference_ = seen.q;
-  enter(mode);
-}
-
 void Supervisor::stop(Fault fault, int joint) noexcept {
   if (fault_ == Fault::kNone) {
     fault_ = fault;
@@ -113,15 +111,6 @@ void Supervisor::stop(Fault fault, int joint) noexcept {
   share_ = 0.0;
   stop_cycles_ = cycles_.fault_stop;
   enter(powered() ? Mode::kStopping : Mode::kStopped);
-}
-
-int Supervisor::joint_of(Fault fault, const Observation& seen) noexcept {
-  switch (fault) {
-    case Fault::kJointLimit: return seen.joint_beyond_limit;
-    case Fault::kNotBalanced: return seen.pushed_joint;
-    case Fault::kTorqueWrong: return seen.wrong_torque_joint;
-    default: return -1;
-  }
 }
 
 /// The fault of this cycle in this mode.
@@ -151,16 +140,10 @@ Fault Supervisor::find_fault_with_power(const Observation& seen) const noexcept 
   if (seen.joint_beyond_limit >= 0) return Fault::kJointLimit;
   if (seen.wrong_torque_joint >= 0) return Fault::kTorqueWrong;
   if (limited_joint_ >= 0) return Fault::kDriveLimited;
-  if (is_unbalanced(seen)) return Fault::kNotBalanced;
   if (mode_ == Mode::kRunning && seen.drifts) return Fault::kDrifts;
+  if (mode_ >= Mode::kSignTest && mode_ <= Mode::kEngaging && seen.drifts_early) return Fault::kNotBalanced;
   if (too_late_) return seen.overrun_ns >= seen.computed_late_ns ? Fault::kOverruns : Fault::kComputedLate;
   return seen.sends_failed >= cycles_.to_loss ? Fault::kSendFailed : Fault::kNone;
-}
-
-/// Nobody should push while the arm engages. Before that the hand may have to leave a contact.
-bool Supervisor::is_unbalanced(const Observation& seen) const noexcept {
-  if (mode_ == Mode::kEngaging) return seen.pushed_joint >= 0 || moved(seen, kEngagingMoves);
-  return (mode_ == Mode::kArmed || before_sign_is_known()) && seen.is_weight && moved(seen, kMovesAway);
 }
 
 /// A drive that has power without a request is as bad as one that has tripped.
@@ -183,7 +166,7 @@ void Supervisor::advance(const Observation& seen) noexcept {
     case Mode::kEnabling: return wait_for_power(seen);
     case Mode::kSignTest: return test_sign(seen);
     case Mode::kArmed:
-      if (!seen.inside && seen.contact_force < parameters_.engage_force) enter_at(Mode::kEngaging, seen);
+      if (!seen.inside && seen.contact_force < parameters_.engage_force) enter(Mode::kEngaging);
       return;
     case Mode::kEngaging: return raise_share();
     case Mode::kEnding: return lower_share();
@@ -255,7 +238,7 @@ void Supervisor::wait_for_power(const Observation& seen) noexcept {
   if (moved(seen, kMovesAway)) {
     stop(Fault::kSignWrong);
   } else if (seen.drives.all_enabled) {
-    enter_at(sign_tested_ ? Mode::kArmed : Mode::kSignTest, seen);
+    enter(sign_tested_ ? Mode::kArmed : Mode::kSignTest);
   } else if (in_mode_ > parameters_.prepare_cycles + cycles_.enable) {
     stop(Fault::kDriveLeft);
   }
@@ -265,7 +248,7 @@ void Supervisor::test_sign(const Observation& seen) noexcept {
   const SignTest::Result result = sign_test_.update(seen.q, test_torque_);
   if (result == SignTest::Result::kPassed) {
     sign_tested_ = true;
-    enter_at(Mode::kArmed, seen);
+    enter(Mode::kArmed);
   } else if (result != SignTest::Result::kRunning) {
     stop(result == SignTest::Result::kWrong ? Fault::kSignWrong : Fault::kSignUndecided, sign_test_.joint());
   } else if (moved(seen, kMovesAway)) {

@@ -93,10 +93,6 @@ class Supervisor {
   /// that stands still fails.
   static constexpr double kMovesAway = 0.05;
 
-  /// The same while the arm engages, when nobody should push. 0.02: some 10 mm at the tool. Tests of hands that hold the
-  /// tool pass with 0.005.
-  static constexpr double kEngagingMoves = 0.02;
-
   Supervisor(const ArmModel& arm, const Parameters& parameters) noexcept;
 
   /// The decision of this cycle. Cost: 20 ns. Real-time safe.
@@ -118,15 +114,12 @@ class Supervisor {
 
  private:
   void enter(Mode mode) noexcept;
-  void enter_at(Mode mode, const Observation& seen) noexcept;
-  static int joint_of(Fault fault, const Observation& seen) noexcept;
   void stop(Fault fault, int joint = -1) noexcept;
   void begin_ending() noexcept;
   void watch_limits(const Observation& seen) noexcept;
   int joint_of(Fault fault, const Observation& seen) const noexcept;
   Fault find_fault(const Observation& seen) const noexcept;
   Fault find_fault_with_power(const Observation& seen) const noexcept;
-  bool is_unbalanced(const Observation& seen) const noexcept;
   Fault find_fault_without_power(const Observation& seen) const noexcept;
   bool jumps_too_often(const Observation& seen) const noexcept { return seen.jumps >= kJumpsInRow || too_many_jumps_; }
   bool moved(const Observation& seen, double more_than) const noexcept;

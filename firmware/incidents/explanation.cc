@@ -40,6 +40,11 @@ const char* advice(Fault fault) {
     case Fault::kSignWrong: return "sign of the joint in the device file, masses of the arm, and who held the tool";
     case Fault::kSignUndecided: return "the brake of the joint, and start.push: is it above dry friction?";
     case Fault::kOutsideLimits: return "zero of the joint in the device file";
+    case Fault::kNotBalanced:
+      return "the tool's way in telemetry.csv: did a hand push? Else weigh the tool, and compare payload and masses";
+    case Fault::kDrifts: return "payload of the device file: weigh what the arm carries; then masses of the links";
+    case Fault::kTorqueWrong: return "object 6077 of the drive against torque*_Nm: its current limits, rated_torque";
+    case Fault::kDriveLimited: return "object 2310 or the like of the drive's manual: which limit acts, and why";
     case Fault::kComputedLate: return "compute_us of telemetry.csv, and other work on this processor (loop.cpu)";
   }
   return "the manual of the version that wrote this record";

@@ -40,7 +40,8 @@ void IncidentRecorder::add(const TelemetryRecord& record) {
   last_ns_ = record.times.deadline_ns;
   rows_.push_back(record);
   drop_old();
-  const bool has_fault = record.cycle.fault != Fault::kNone;
+  // who releases the enable switch ends the work: that is no incident, and happens many times a day
+  const bool has_fault = record.cycle.fault != Fault::kNone && record.cycle.fault != Fault::kEnableReleased;
   if (has_fault_ && !has_fault) end();
   if (!has_fault_ && has_fault) begin(record);
   has_fault_ = has_fault;

@@ -45,7 +45,7 @@ class IncidentRecorder {
 
   explicit IncidentRecorder(Setup setup) : setup_(std::move(setup)) {}
 
-  /// Takes the next cycle. A fault that is new begins an incident.
+  /// Takes the next cycle. A fault that is new begins an incident, unless the operator released the enable switch.
   void add(const TelemetryRecord& record);
 
   /// Takes the next frame, of the last cycle that was taken.

@@ -95,7 +95,7 @@ class NobodyHolds : public WrongModelTest {};
 class HandLetsGo : public WrongModelTest {};
 
 constexpr double kEngagingMost = 0.03;  ///< way of the tool in all, stop included [m]
-constexpr double kRunningMost = 0.13;
+constexpr double kRunningMost = 0.2;
 
 TEST_P(NobodyHolds, AnArmOfOtherMassesStopsWhileItEngages) {
   SimulatedRun::Options wrong = options();
@@ -148,27 +148,86 @@ TEST(RightModel, StaysWhereItIsWhenNobodyHoldsIt) {
   EXPECT_LT(stop.in_all, 1e-3);
 }
 
+/// Runs a hand that leads the ball along `way` from its start; `share` is of the way, by seconds since the hand begins.
+Stop stop_of_hand(const Vector3& way, double begin, std::uint32_t engage_cycles,
+                  const std::function<double(double)>& share, double tremor = 0.0) {
+  SimulatedRun::Options options;
+  options.begin = begin;
+  options.engage_cycles = engage_cycles;
+  for (int ms = 0; ms < 6000; ++ms) {
+    const double t = 1e-3 * ms;
+    const double shake = tremor * std::sin(2.0 * std::numbers::pi * 9.0 * t) * std::min(1.0, t);
+    options.path.push_back(Vector3(0.0, 0.0, 0.06) + share(t) * way + shake * Vector3(0.5, -0.3, 1.0));
+  }
+  SimulatedRun run(scene(), options);
+  run.run(static_cast<std::int64_t>(1e3 * begin) + 6000);
+  return stop_of(run, 0);
+}
+
+const Vector3 kWays[] = {{0.0, 0.0, 0.15}, {0.12, 0.0, 0.0}, {0.0, 0.1, 0.1}, {0.05, 0.0, 0.15}};
+
 /// Hands that move as evenly as they can, up and down and sideways, with and without tremor, must not look like masses.
-TEST(RightModel, LetsAHandMoveItAnyWay) {
-  for (const Vector3& way : {Vector3(0.0, 0.0, 0.15), Vector3(0.12, 0.0, 0.0), Vector3(0.0, 0.1, 0.1)}) {
+TEST(RightModel, LetsAHandMoveItEvenly) {
+  for (const Vector3& way : kWays) {
     for (const double speed : {0.05, 0.2}) {
       for (const double tremor : {0.0, 0.5e-3}) {
-        SimulatedRun::Options options;
-        for (int ms = 0; ms < 6000; ++ms) {
-          // to and fro at an even speed, from 0.6 s after the start of rendering on
-          const double t = 1e-3 * ms;
-          const double share = 1.0 - std::abs(std::fmod(std::max(0.0, t - 0.6) * speed / way.norm(), 2.0) - 1.0);
-          const double shake = tremor * std::sin(2.0 * std::numbers::pi * 9.0 * t) * std::min(1.0, t);
-          options.path.push_back(Vector3(0.0, 0.0, 0.06) + share * way + shake * Vector3(0.5, -0.3, 1.0));
-        }
-        SimulatedRun run(scene(), options);
-        run.run(6400);
-        const Stop stop = stop_of(run, 0);
+        const auto to_and_fro = [&](double t) {
+          return 1.0 - std::abs(std::fmod(std::max(0.0, t - 0.6) * speed / way.norm(), 2.0) - 1.0);
+        };
+        const Stop stop = stop_of_hand(way, 0.6, 50, to_and_fro, tremor);
         EXPECT_EQ(stop.fault, Fault::kNone)
             << way.transpose() << " m at " << speed << " m/s, tremor of " << tremor << " m: " << describe(stop.fault);
       }
     }
   }
+}
+
+TEST(RightModel, LetsAHandSwingIt) {
+  for (const Vector3& way : kWays) {
+    for (const double stretch : {1.0, 1.6, 2.4}) {
+      for (const double speed : {0.2, 0.4, 0.6, 0.75}) {
+        const Vector3 swing = stretch * way;
+        const auto sine = [&](double t) {
+          return 0.5 - 0.5 * std::cos(2.0 * speed / swing.norm() * std::max(0.0, t - 0.6));
+        };
+        const Stop stop = stop_of_hand(swing, 0.6, 50, sine);
+        EXPECT_NE(stop.fault, Fault::kDrifts) << swing.transpose() << " m at " << speed << " m/s";
+        EXPECT_NE(stop.fault, Fault::kNotBalanced) << swing.transpose() << " m at " << speed << " m/s";
+      }
+    }
+  }
+}
+
+/// A hand that leads the tool out of a contact still moves while the arm engages.
+TEST(RightModel, LetsAHandMoveItWhileItEngages) {
+  for (const Vector3& way : kWays) {
+    for (const double seconds : {0.5, 1.0, 2.0}) {
+      const auto smooth = [&](double t) {
+        const double s = std::clamp(t / seconds, 0.0, 1.0);
+        return 0.5 * s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+      };
+      EXPECT_EQ(stop_of_hand(way, 0.2, 500, smooth).fault, Fault::kNone) << way.transpose() << " m in " << seconds;
+    }
+  }
+}
+
+/// Periods without a cycle, as many as the rule for overruns allows, do not hide a drift.
+TEST(DriftTest, IsFoundInSpiteOfSkippedPeriods) {
+  constexpr std::int64_t kLetsGo = 1500;
+  SimulatedRun::Options options;
+  options.turn = exp_rotation(0.5 * std::numbers::pi * Vector3::UnitX());  // the plate stands beside the arm
+  options.more_payload = 0.12;
+  options.load = hand_until(kLetsGo);
+  for (std::int64_t cycle = 100; cycle < 8000; cycle += 120) {
+    options.late.push_back({.ns = cycle * 1'000'000, .late_ns = 1'500'000});
+  }
+  SimulatedRun run(scene(), options);
+  run.run(8000);
+  const Stop stop = stop_of(run, kLetsGo);
+  print("payload 0.12 kg heavier, skipped periods", stop, kLetsGo);
+  EXPECT_GT(run.controller().counters().skipped, 40u);
+  EXPECT_EQ(stop.fault, Fault::kDrifts);
+  EXPECT_LT(stop.in_all, kRunningMost);
 }
 
 TEST(DriveThatGivesLess, StopsBeforeTheToolHasMovedFar) {
@@ -182,7 +241,7 @@ TEST(DriveThatGivesLess, StopsBeforeTheToolHasMovedFar) {
   print("a drive gives less than it is asked", stop, kFault);
   EXPECT_EQ(stop.fault, Fault::kTorqueWrong);
   EXPECT_EQ(run.controller().supervisor().fault_joint(), 1);
-  EXPECT_LE(stop.cycle - kFault, 30);
+  EXPECT_LE(stop.cycle - kFault, 60);
   EXPECT_LT(stop.in_all, 0.01);
 }
 

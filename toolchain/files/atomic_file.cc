@@ -16,7 +16,8 @@ AtomicFile::AtomicFile(std::filesystem::path file)
     : file_(std::move(file)),
       target_(output_target(file_)),
       temporary_(fmt::format("{}.{}.part", target_.string(), ::getpid())) {
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  ::unlink(temporary_.c_str());  // of a process that died; a link that somebody left there is not followed
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
   if (descriptor_ < 0) fail("cannot be written");
 }
 

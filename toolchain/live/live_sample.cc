@@ -10,7 +10,7 @@ namespace godobject::live {
 namespace {
 
 std::string fault_text(int fault) {
-  const bool known = fault > 0 && fault <= static_cast<int>(firmware::Fault::kDriveLimited);
+  const bool known = fault > 0 && fault <= static_cast<int>(firmware::kLastFault);
   return known ? describe(static_cast<firmware::Fault>(fault)) : "";
 }
 

@@ -541,7 +541,7 @@ TEST_F(CycleRecordTest, NamesTheJointOfTheFault) {
 }
 
 TEST_F(CycleRecordTest, StopsForAnyAlarm) {
-  for (int i = 1; i <= static_cast<int>(hal::Alarm::kPanelSilent); ++i) {
+  for (int i = 1; i <= static_cast<int>(hal::Alarm::kTemperatureLost); ++i) {
     drives_ = FakeDrives(7);
     drives_.reading.position = q0_;
     make();

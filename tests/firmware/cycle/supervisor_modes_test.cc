@@ -120,8 +120,7 @@ const std::vector<ModeRow> kRows = {
      [](Observation& o) { o.computed_late_ns = 5'000'001; }},
     {"a drive's torque is wrong", "...xxxxxk...x.", Fault::kTorqueWrong,
      [](Observation& o) { o.wrong_torque_joint = 3; }},
-    {"a joint is pushed", "......x.......", Fault::kNotBalanced, [](Observation& o) { o.pushed_joint = 3; }},
-    {"a weight pushes", "..............", Fault::kNone, [](Observation& o) { o.is_weight = true; }},
+    {"it drifts early", "....xxx.......", Fault::kNotBalanced, [](Observation& o) { o.drifts_early = true; }},
     {"it drifts", ".......x......", Fault::kDrifts, [](Observation& o) { o.drifts = true; }},
     {"second failed send", "..............", Fault::kNone, [](Observation& o) { o.sends_failed = 2; }},
     {"third failed send", "...xxxxxk...x.", Fault::kSendFailed, [](Observation& o) { o.sends_failed = 3; }},
@@ -200,8 +199,7 @@ void expect_row(const ModeRow& row, Mode mode, char follows) {
   with.seen.lost = with.seen.jumps = with.seen.sends_failed = 0;
   const Supervisor& supervisor = with.supervisor;
   const Fault earlier = before.supervisor.fault();
-  const int culprit =
-      std::max({shown.joint_beyond_limit, shown.wrong_torque_joint, shown.pushed_joint});  // one of them
+  const int culprit = std::max(shown.joint_beyond_limit, shown.wrong_torque_joint);  // one of them
   const auto expect_stopped_by = [&](Fault fault, int joint) {
     expect_stop(with, before, shown.drives);
     EXPECT_EQ(supervisor.fault(), fault);

@@ -112,7 +112,7 @@ class IncidentTest : public test::FolderTest {
 /// Of every fault: number, words and advice.
 TEST_F(IncidentTest, NamesEveryFaultAndWhatToLookAt) {
   std::vector<std::string> advices;
-  for (int number = 1; number <= static_cast<int>(Fault::kComputedLate); ++number) {
+  for (int number = 1; number <= static_cast<int>(kLastFault); ++number) {
     const auto fault = static_cast<Fault>(number);
     write(fault);
     const std::string text = words();

@@ -18,7 +18,7 @@ namespace {
 TEST(ControllerRun, RefusesToStartForWhatAResetDoesNotCure) {
   const std::vector<Fault> refusals = {Fault::kDrivesAbsent, Fault::kNotAtRest, Fault::kSignWrong,
                                        Fault::kSignUndecided, Fault::kOutsideLimits};
-  for (int i = 0; i <= static_cast<int>(Fault::kTorqueWrong); ++i) {
+  for (int i = 0; i <= static_cast<int>(kLastFault); ++i) {
     const auto fault = static_cast<Fault>(i);
     EXPECT_EQ(refuses_to_start(fault), std::count(refusals.begin(), refusals.end(), fault) == 1) << describe(fault);
   }

@@ -319,7 +319,7 @@ void BrickTree::halve(std::uint32_t brick, std::uint8_t wanted, const std::array
     }
     refined.child[octant] = brick_count();
     places_.push_back(place);
-    fine_.push_back({octants[octant], octants[octant]});
+    fine_.push_back({.exact = octants[octant], .stored = octants[octant]});
     exact_cells_.push_back(0);
     passes_on_.push_back(passes_on_[brick]);
     refuses_.push_back(passes_on_[brick] || (field_.beside_seam.size() > place.root && field_.beside_seam[place.root]));
@@ -352,15 +352,17 @@ void BrickTree::forget_about(const std::vector<std::uint32_t>& roots) {
 }
 
 void BrickTree::forget_contents(std::uint32_t brick) {
+  if (exact_cells_[brick] != 0) --made_exact_;
   exact_cells_[brick] = 0;
   passes_on_[brick] = false;
   weighed_[brick] = 0;
   exact_[brick].reset();
   Place& place = places_[brick];
   if (place.level > 0) {
+    if (!fine_[brick - field_.bricks.size()].is_forgotten) ++forgotten_;
     place.halved = 0xff;
     refuses_[brick] = false;
-    fine_[brick - field_.bricks.size()] = {};
+    fine_[brick - field_.bricks.size()] = {.exact = {}, .stored = {}, .is_forgotten = true};
     return;
   }
   entry_of(brick) = brick;

@@ -53,6 +53,8 @@ class BrickTree {
   BrickTree(const DistanceGrid& field, const SurfaceFacets& facets);
 
   std::uint32_t brick_count() const { return static_cast<std::uint32_t>(places_.size()); }
+  /// Returns the number of bricks that `write` may write: those that are not forgotten.
+  std::uint32_t live_count() const { return brick_count() - forgotten_; }
   int level(std::uint32_t brick) const { return places_[brick].level; }
   std::uint32_t root(std::uint32_t brick) const { return places_[brick].root; }
   /// Returns the octants that are not halved, one bit each.
@@ -156,6 +158,7 @@ class BrickTree {
   };
   struct Fine {
     Brick exact, stored;
+    bool is_forgotten = false;
   };
   /// A node of one level's lattice.
   struct Node {
@@ -214,7 +217,8 @@ class BrickTree {
   std::vector<std::uint32_t> touched_;     ///< roots, since the last join
   std::vector<std::uint32_t> changed_in_;  ///< number of the last join that changed something there, by root
   std::uint32_t joins_ = 0;
-  double quantum_ = 0.0;  ///< 0: not rounded yet [m]
+  std::uint32_t forgotten_ = 0;  ///< bricks
+  double quantum_ = 0.0;         ///< 0: not rounded yet [m]
   /// By key(): power of two that divides a node's value, if it is not 0.
   std::unordered_map<std::uint64_t, int> factor_;
   const SurfaceFacets& facets_;

@@ -101,7 +101,7 @@ class Refinement {
  private:
   /// Halves the wanted octants. Bars the bricks in which a seam would appear.
   void halve(BrickTree& tree, const Wanted& wanted, std::vector<bool>& barred) {
-    if (tree.brick_count() + 8 * wanted.size() > kMaxBricks) {
+    if (tree.live_count() + 8 * wanted.size() > kMaxBricks) {
       throw command::Failure(command::ExitCode::kBadData,
                              fmt::format("a surface within {:g} m needs more bricks than the limit of {}; take a "
                                          "larger field_tolerance or accuracy, or a larger voxel_size",
