@@ -31,7 +31,7 @@ class ModelWatch {
   static constexpr double kDrift = 0.1;  // [m]
   static constexpr std::uint32_t kDrift_ms = 400;
   static constexpr double kEarlyDrift = 0.01;
-  static constexpr std::uint32_t kEarlyDrift_ms = 150;
+  static constexpr std::uint32_t kEarlyDrift_ms = 200;
   /// Time after a period without a cycle in which the estimate settles, three time constants: a late sample looks like
   /// a push [ms].
   static constexpr std::uint32_t kSettle_ms = 60;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "tests/closed_loop/seen_fault.h"
 #include "tests/closed_loop/simulated_run.h"
 #include "tests/support/small_scenes.h"
 
@@ -92,9 +93,9 @@ class WrongModelTest : public testing::TestWithParam<WrongModel> {
 };
 
 class NobodyHolds : public WrongModelTest {};
-class HandLetsGo : public WrongModelTest {};
+class HandReleases : public WrongModelTest {};
 
-constexpr double kEngagingMost = 0.03;  ///< way of the tool in all, stop included [m]
+constexpr double kEngagingMost = 0.045;  ///< way of the tool in all, stop included [m]
 constexpr double kRunningMost = 0.2;
 
 TEST_P(NobodyHolds, AnArmOfOtherMassesStopsWhileItEngages) {
@@ -104,19 +105,21 @@ TEST_P(NobodyHolds, AnArmOfOtherMassesStopsWhileItEngages) {
   run.run(4000);
   const Stop stop = stop_of(run, 0);
   print(GetParam().name, stop, 0);
+  test::record(seen_since(run.cycles, 0));
   EXPECT_EQ(stop.fault, Fault::kNotBalanced);
   EXPECT_LT(stop.in_all, kEngagingMost);
 }
 
-TEST_P(HandLetsGo, AnArmOfAnotherLoadStopsWhileItRuns) {
-  constexpr std::int64_t kLetsGo = 1500;
+TEST_P(HandReleases, AnArmOfAnotherLoadStopsWhileItRuns) {
+  constexpr std::int64_t kRelease = 1500;
   SimulatedRun::Options wrong = options();
-  wrong.load = hand_until(kLetsGo);
+  wrong.load = hand_until(kRelease);
   SimulatedRun run(scene(), wrong);
   run.run(8000);
-  const Stop stop = stop_of(run, kLetsGo);
-  print(GetParam().name, stop, kLetsGo);
-  EXPECT_GT(stop.cycle, kLetsGo) << "the hand's hold hides it";
+  const Stop stop = stop_of(run, kRelease);
+  print(GetParam().name, stop, kRelease);
+  test::record(seen_since(run.cycles, kRelease));
+  EXPECT_GT(stop.cycle, kRelease) << "the hand's hold hides it";
   EXPECT_EQ(stop.fault, Fault::kDrifts);
   EXPECT_LT(stop.in_all, kRunningMost);
 }
@@ -136,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Masses, NobodyHolds,
                                          WrongModel{"links 10 % lighter", 0.0, -0.1},
                                          WrongModel{"links 10 % heavier", 0.0, 0.1}),
                          name_of);
-INSTANTIATE_TEST_SUITE_P(Masses, HandLetsGo, testing::Values(kHeavier, kALittleHeavier, kLighter), name_of);
+INSTANTIATE_TEST_SUITE_P(Masses, HandReleases, testing::Values(kHeavier, kALittleHeavier, kLighter), name_of);
 
 TEST(RightModel, StaysWhereItIsWhenNobodyHoldsIt) {
   SimulatedRun::Options options;
@@ -213,18 +216,18 @@ TEST(RightModel, LetsAHandMoveItWhileItEngages) {
 
 /// Periods without a cycle, as many as the rule for overruns allows, do not hide a drift.
 TEST(DriftTest, IsFoundInSpiteOfSkippedPeriods) {
-  constexpr std::int64_t kLetsGo = 1500;
+  constexpr std::int64_t kRelease = 1500;
   SimulatedRun::Options options;
   options.turn = exp_rotation(0.5 * std::numbers::pi * Vector3::UnitX());  // the plate stands beside the arm
   options.more_payload = 0.12;
-  options.load = hand_until(kLetsGo);
+  options.load = hand_until(kRelease);
   for (std::int64_t cycle = 100; cycle < 8000; cycle += 120) {
     options.late.push_back({.ns = cycle * 1'000'000, .late_ns = 1'500'000});
   }
   SimulatedRun run(scene(), options);
   run.run(8000);
-  const Stop stop = stop_of(run, kLetsGo);
-  print("payload 0.12 kg heavier, skipped periods", stop, kLetsGo);
+  const Stop stop = stop_of(run, kRelease);
+  print("payload 0.12 kg heavier, skipped periods", stop, kRelease);
   EXPECT_GT(run.controller().counters().skipped, 40u);
   EXPECT_EQ(stop.fault, Fault::kDrifts);
   EXPECT_LT(stop.in_all, kRunningMost);
@@ -239,6 +242,7 @@ TEST(DriveThatGivesLess, StopsBeforeTheToolHasMovedFar) {
   run.run(3000);
   const Stop stop = stop_of(run, kFault - 1);
   print("a drive gives less than it is asked", stop, kFault);
+  test::record(seen_since(run.cycles, kFault));
   EXPECT_EQ(stop.fault, Fault::kTorqueWrong);
   EXPECT_EQ(run.controller().supervisor().fault_joint(), 1);
   EXPECT_LE(stop.cycle - kFault, 60);

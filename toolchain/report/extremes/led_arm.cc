@@ -27,6 +27,7 @@ class LedDrives final : public hal::JointDrives {
   /// The enable switch is held once it was seen released.
   void receive(hal::JointReading& reading) noexcept override {
     reading.position = position;
+    reading.torque = sent;
     reading.state.fill(state_);
     reading.enable_switch = ++cycles_ > kStartCycles / 2;
   }

@@ -12,6 +12,12 @@ const char* const kCycle = "firmware_cycle_test";
 Injection loop_stop(const std::string& row) { return {kLoop, "Rows/ClosedLoopFault.StopsInTime/" + row}; }
 Injection loop_nuisance(const std::string& row) { return {kLoop, "Rows/ClosedLoopNuisance.IsGoneOnWith/" + row}; }
 Injection loop_overrun(const std::string& row) { return {kLoop, "Rows/ClosedLoopOverruns.StopTheArm/" + row}; }
+Injection nobody_holds(const std::string& row) {
+  return {kLoop, "Masses/NobodyHolds.AnArmOfOtherMassesStopsWhileItEngages/" + row};
+}
+Injection hand_releases(const std::string& row) {
+  return {kLoop, "Masses/HandReleases.AnArmOfAnotherLoadStopsWhileItRuns/" + row};
+}
 Injection can_stop(const std::string& row) { return {kCan, "Rows/CanFault.StopsInTime/" + row}; }
 Injection can_nuisance(const std::string& row) { return {kCan, "Rows/CanNuisance.IsGoneOnWith/" + row}; }
 Injection can_start(const std::string& row) { return {kCan, "Rows/CanStartFault.IsRefused/" + row}; }
@@ -151,6 +157,23 @@ const std::vector<Requirement>& requirements() {
        -1,
        {loop_nuisance("encoder_jumps_once"), can_nuisance("encoder_jumps_once")}},
       {"NaN, Inf, out of range", "STOP", Reaction::kStop, 1, {loop_stop("encoder_not_finite")}},
+      {"payload or masses that the model does not have, nobody holds the arm",
+       "STOP before it renders, within 45 mm",
+       Reaction::kStop,
+       -1,
+       {nobody_holds("payload02kgheavier"), nobody_holds("payload012kgheavier"), nobody_holds("payload02kglighter"),
+        nobody_holds("links10lighter"), nobody_holds("links10heavier")}},
+      {"the same payload, the hand releases the running arm",
+       "STOP within 200 mm",
+       Reaction::kStop,
+       -1,
+       {hand_releases("payload02kgheavier"), hand_releases("payload012kgheavier"),
+        hand_releases("payload02kglighter")}},
+      {"a drive gives less torque than it is asked, and does not say so",
+       "STOP",
+       Reaction::kStop,
+       60,
+       {{kLoop, "DriveThatGivesLess.StopsBeforeTheToolHasMovedFar"}}},
       {"encoder stuck while the axis should move",
        "STOP",
        Reaction::kStop,
