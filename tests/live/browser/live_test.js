@@ -360,10 +360,15 @@ const tests = {
     await until(tab, () => window.godobjectPage.picture.colours.motions[0].pass >= 2);
     await assertDistances(tab, 6, 0.05);
     assert.ok(await pressUntilContact(tab, await grab(tab)), 'no force');
-    await until(tab, () => window.godobjectPage.picture.colours.motions[0].pass >= 2);
-    const near = await coloursOfNearest(tab);
+    // the last pose is measured some pictures after it is there, and the body may still yield a little
+    const isNear = ([red, green, blue]) => Math.min(red, green) > 120 && blue < 110;
+    let near = await coloursOfNearest(tab);
+    for (let i = 0; i < 40 && !near.some(isNear); ++i) {
+      await pause(tab);
+      near = await coloursOfNearest(tab);
+    }
     await tab.mouse.up();
-    assert.ok(near.some(([red, green, blue]) => Math.min(red, green) > 120 && blue < 110), JSON.stringify(near));
+    assert.ok(near.some(isNear), JSON.stringify(near));
     await tab.click('.options label:has(+ .legend)');
     assert.deepEqual((await placesOf(tab)).legend, [0, 0]);
     const { blue } = await pixels(tab);
