@@ -150,6 +150,7 @@ RunRecords::Setup Session::records_setup() const {
           .needs_incidents = telemetry.needs_incidents,
           .start = now,
           .joint_count = config_.device.model.joint_count,
+          .period = config_.device.bus.period,
           .every = static_cast<std::uint32_t>(telemetry.every),
           .buses = telemetry.bus,
           .bus_names = link_->bus_names(),

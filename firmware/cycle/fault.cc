@@ -37,7 +37,7 @@ const char* describe(Fault fault) noexcept {
       return "the arm moved by itself before it rendered, as a wrong load moves it; correct masses and payload in the "
              "device file";
     case Fault::kDrifts:
-      return "the arm drifted as a wrong load moves it; correct masses and payload in the device file, and hold it";
+      return "the arm drifted as a wrong load moves it; correct masses and payload in the device file";
     case Fault::kTorqueWrong:
       return "a drive's measured torque does not follow its command; read its own error display, check rated_torque "
              "and its current limits";

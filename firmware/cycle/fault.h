@@ -29,7 +29,7 @@ enum class Fault : std::uint8_t {
   kOutsideLimits,   ///< a joint is beyond its position limit before the start
   kComputedLate,    ///< cycles computed for longer than planned too often, or by too much
   kNotBalanced,     ///< the torque of wrong masses moved the tool before the arm rendered
-  kDrifts,          ///< the torque of wrong masses moved the tool on a long way
+  kDrifts,          ///< the torque of wrong masses moved the tool over a long way
   kTorqueWrong,     ///< a drive's measured torque does not follow the torque sent
   kDriveLimited,    ///< a drive limited its torque by itself for too long
 };

@@ -89,8 +89,8 @@ class Supervisor {
   /// Motion that the zero check allows [rad]. 0.001 to 0.005. With 0.02 a joint that moves 6 mrad with its brake closed
   /// passes.
   static constexpr double kAtRest = 0.005;
-  /// Motion of a joint that ends enabling and sign test [rad]. 0.05 to 0.2. With 0.01 the test of an encoder
-  /// that stands still fails.
+  /// Motion of a joint that ends enabling and sign test [rad]. 0.05 to 0.2. With 0.01 the test of an encoder that
+  /// stands still fails.
   static constexpr double kMovesAway = 0.05;
 
   Supervisor(const ArmModel& arm, const Parameters& parameters) noexcept;

@@ -21,8 +21,7 @@ const char* advice(Fault fault) {
     case Fault::kNotAtRest: return "the brake of the joint that moved: its q*_rad changes in telemetry.csv";
     case Fault::kPositionLost:
       return "column lost of telemetry.csv, then can.log: whose TPDO1 is missing after a SYNC? Check the wiring of "
-             "that "
-             "drive, and the load of its bus (doctor prints it)";
+             "that drive, and the load of its bus (doctor prints it)";
     case Fault::kPositionJump: return "q*_rad of the joint before the stop: cable and shield of its encoder";
     case Fault::kNotFinite: return "the drive of the joint: its scaling in the device file";
     case Fault::kEncoderStuck:

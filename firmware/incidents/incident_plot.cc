@@ -95,15 +95,15 @@ std::string draw_panel(const Incident& incident, const Panel& panel, double top)
 
 std::string draw(const Incident& incident) {
   const IncidentRow& stop = incident.rows[*incident.stop];
+  const std::string what = describe(stop.fault);  // then a semicolon and the cure
   const std::vector<Panel> all = panels(incident);
   const double bottom = kTop + static_cast<double>(all.size()) * (kHeight + kGap);
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
       kLeft + kWidth + 30.0, bottom + 10.0);
-  svg +=
-      words(kLeft, 20.0, "start",
-            fmt::format("fault {}: {}", static_cast<int>(stop.fault), std::string(describe(stop.fault)).substr(0, 90)));
+  svg += words(kLeft, 20.0, "start",
+               fmt::format("fault {}: {}", static_cast<int>(stop.fault), what.substr(0, what.find(';'))));
   double top = kTop;
   for (const Panel& panel : all) {
     svg += draw_panel(incident, panel, top);

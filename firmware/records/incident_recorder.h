@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -30,16 +31,19 @@ class IncidentRecorder {
   static constexpr std::int64_t kBefore_ns = 30'000'000'000;
   /// Chosen: the drives are at rest after 1 s; an arm that stays stopped for a night must not fill the disk.
   static constexpr std::int64_t kAfter_ns = 60'000'000'000;
-  /// Chosen: 90 s of seven joints on three buses at 1 kHz take some 140 MB.
-  static constexpr std::uintmax_t kLeastRoom = 200'000'000;
+  /// Room that a record needs on the disk [bytes]. Chosen: 90 s of seven joints on three buses at 1 kHz take some
+  /// 140 MB, and shorter periods as much more as they are shorter. `period`: T [s].
+  static std::uintmax_t least_room(double period) noexcept {
+    return static_cast<std::uintmax_t>(200e6 * std::max(1.0, 1e-3 / period));
+  }
 
   struct Setup {
-    std::filesystem::path folder{};          ///< of all incidents
-    std::string name{};                      ///< of the incident's folder; empty: the time of the stop in UTC
-    int joint_count = 0;                     ///< of the telemetry
-    std::vector<std::string> bus_names{};    ///< bus 0 first
-    std::vector<RecordFile> facts{};         ///< written into each incident's folder
-    std::uintmax_t least_room = kLeastRoom;  ///< with less room on the disk nothing is written [bytes]
+    std::filesystem::path folder{};        ///< of all incidents
+    std::string name{};                    ///< of the incident's folder; empty: the time of the stop in UTC
+    int joint_count = 0;                   ///< of the telemetry
+    std::vector<std::string> bus_names{};  ///< bus 0 first
+    std::vector<RecordFile> facts{};       ///< written into each incident's folder
+    std::uintmax_t least_room = 0;         ///< with less room on the disk nothing is written [bytes]
     std::function<void(const std::string&)> say = [](const std::string&) {};  ///< a line for the operator
   };
 

@@ -22,9 +22,10 @@ void warn_of_little_room(const RunRecords::Setup& setup) {
   for (const std::filesystem::path& folder : {setup.folder, setup.incidents}) {
     if (folder.empty()) continue;
     const std::uintmax_t room = room_on_disk(folder);
-    if (room >= IncidentRecorder::kLeastRoom) continue;
+    const std::uintmax_t least = IncidentRecorder::least_room(setup.period);
+    if (room >= least) continue;
     setup.say(fmt::format("{}: the disk has {} MB left; below {} MB no stop is recorded; make room", folder.string(),
-                          room / 1'000'000, IncidentRecorder::kLeastRoom / 1'000'000));
+                          room / 1'000'000, least / 1'000'000));
   }
 }
 
@@ -51,6 +52,7 @@ RunRecords::RunRecords(Setup setup, TelemetryRing& ring, hal::CanLogRing& bus_ri
                                     .joint_count = setup.joint_count,
                                     .bus_names = setup.bus_names,
                                     .facts = setup.facts,
+                                    .least_room = IncidentRecorder::least_room(setup.period),
                                     .say = setup.say};
   if (!setup.folder.empty()) {
     const LatestLinks links(setup.folder, file_names(setup));

@@ -29,6 +29,7 @@ class RunRecords {
     bool needs_incidents = true;        ///< false: a folder of incidents that cannot be made is only said
     std::chrono::system_clock::time_point start{};  ///< of the run
     int joint_count = 0;
+    double period = 1e-3;                  ///< T [s]
     std::uint32_t every = 1;               ///< cycles a row of the log; an incident has each cycle
     bool buses = false;                    ///< the frames on the buses are logged, too
     std::vector<std::string> bus_names{};  ///< bus 0 first

@@ -434,8 +434,7 @@ const char* describe(BringUpStatus status) noexcept {
              "their cables or their node numbers, or correct identity in the device file";
     case BringUpStatus::kDrivesSwapped:
       return "the drives of two joints are swapped, or their cables or node numbers; swap them back, or correct "
-             "identity "
-             "in the device file";
+             "identity in the device file";
     case BringUpStatus::kTooHot: return "is too hot; let it cool down, then start again";
     case BringUpStatus::kNoIdentity:
       return "does not have a part of its identity that the device file names; delete that key of identity";

@@ -186,6 +186,7 @@ TEST(RightModel, LetsAHandMoveItEvenly) {
 }
 
 TEST(RightModel, LetsAHandSwingIt) {
+  int unhindered = 0;
   for (const Vector3& way : kWays) {
     for (const double stretch : {1.0, 1.6, 2.4}) {
       for (const double speed : {0.2, 0.4, 0.6, 0.75}) {
@@ -194,11 +195,13 @@ TEST(RightModel, LetsAHandSwingIt) {
           return 0.5 - 0.5 * std::cos(2.0 * speed / swing.norm() * std::max(0.0, t - 0.6));
         };
         const Stop stop = stop_of_hand(swing, 0.6, 50, sine);
+        unhindered += stop.fault == Fault::kNone ? 1 : 0;
         EXPECT_NE(stop.fault, Fault::kDrifts) << swing.transpose() << " m at " << speed << " m/s";
         EXPECT_NE(stop.fault, Fault::kNotBalanced) << swing.transpose() << " m at " << speed << " m/s";
       }
     }
   }
+  EXPECT_GE(unhindered, 24) << "of 48; others are too fast, or reach a limit of the arm";
 }
 
 /// A hand that leads the tool out of a contact still moves while the arm engages.

@@ -150,6 +150,23 @@ TEST_F(IncidentRecorderTest, WritesNothingWithoutAFault) {
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
+/// A release is how the work ends; the fault of another stop, later in the same run, is an incident.
+TEST_F(IncidentRecorderTest, WritesNothingWhenTheOperatorReleasesTheEnableSwitch) {
+  IncidentRecorder incidents = recorder();
+  run(incidents, 0.0, 1.0);
+  run(incidents, 1.0, 2.0, Fault::kEnableReleased);
+  EXPECT_TRUE(fs::is_empty(folder_));
+  run(incidents, 2.0, 3.0);
+  run(incidents, 3.0, 4.0, Fault::kEmergencyStop);
+  expect_each(rows(), 0, 3'999);
+}
+
+TEST(IncidentRoom, GrowsWithTheRate) {
+  EXPECT_EQ(IncidentRecorder::least_room(1e-3), 200'000'000u);
+  EXPECT_EQ(IncidentRecorder::least_room(1e-2), 200'000'000u);
+  EXPECT_NEAR(static_cast<double>(IncidentRecorder::least_room(1.25e-4)), 1.6e9, 1.0);
+}
+
 TEST_F(IncidentRecorderTest, HasThe30SecondsBeforeTheStopAndTheTimeAfterIt) {
   IncidentRecorder incidents = recorder();
   run(incidents, 0.0, 40.0);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -269,6 +270,91 @@ TEST(ExactBricks, SettleWhenABrickRefusesBesideCoarserOnes) {
     ++settled;
   }
   EXPECT_EQ(settled, 20);
+}
+
+/// A tree whose positions are halved twice and made exact, all that can be.
+class HalvedTree {
+ public:
+  HalvedTree() {
+    const std::uint32_t roots = tree.brick_count();
+    for (std::uint32_t first = 0, end = roots; end < roots * 20; end = tree.brick_count()) {
+      for (std::uint32_t b = first; b < end; ++b) tree.halve(b, 0x5a, measure_octants(surface_, tree, b).bricks);
+      first = end;
+    }
+    for (std::uint32_t b = 0; b < tree.brick_count(); ++b) tree.make_exact(b, ~std::uint64_t{0});
+    tree.join();
+  }
+
+  int exact_count() const {
+    int count = 0;
+    for (std::uint32_t b = 0; b < tree.brick_count(); ++b) count += tree.exact_brick(b) ? 1 : 0;
+    return count;
+  }
+
+ private:
+  const SolidSurface surface_{test::moved(test::box_mesh({0.03, 0.02, 0.025}), test::odd_motion()), SurfaceKind::kSolid,
+                              2.0 * kVoxel};
+  const SurfaceFacets facets_{surface_, 0.0};
+
+ public:
+  const DistanceGrid field = make_distance_grid(surface_, kVoxel, default_band(kVoxel, 1.5 * kVoxel), {});
+  BrickTree tree{field, facets_};
+};
+
+TEST(BrickTree, IsAsAtTheStartOnceAllIsForgotten) {
+  HalvedTree halved;
+  BrickTree& tree = halved.tree;
+  ASSERT_GT(halved.exact_count(), 100);
+  ASSERT_GT(tree.live_count(), 4 * halved.field.bricks.size());
+  std::vector<std::uint32_t> roots(halved.field.bricks.size());
+  std::iota(roots.begin(), roots.end(), 0u);
+  for (int again = 0; again < 2; ++again) {
+    tree.forget_about(roots);
+    tree.join();
+    EXPECT_EQ(tree.live_count(), halved.field.bricks.size());
+    EXPECT_EQ(halved.exact_count(), 0);
+  }
+  const HalvedTree other;
+  const SurfaceFacets no_facets;
+  BrickTree fresh(other.field, no_facets);
+  DistanceGrid written = halved.field;
+  DistanceGrid expected = other.field;
+  tree.round(0.0);
+  tree.write(written);
+  fresh.round(0.0);
+  fresh.write(expected);
+  EXPECT_TRUE(written.refined.empty());
+  EXPECT_TRUE(written.exact.empty());
+  EXPECT_EQ(written.index, expected.index);
+  EXPECT_EQ(written.grid.quantum, expected.grid.quantum);
+  ASSERT_EQ(written.bricks.size(), expected.bricks.size());
+  for (std::size_t b = 0; b < written.bricks.size(); ++b) {
+    ASSERT_TRUE(std::ranges::equal(written.bricks[b].value, expected.bricks[b].value)) << b;
+  }
+}
+
+/// Positions up to two away are forgotten, and can be halved again; those beyond keep what they have.
+TEST(BrickTree, ForgetsTwoPositionsAboutARoot) {
+  HalvedTree halved;
+  BrickTree& tree = halved.tree;
+  const std::uint32_t roots = static_cast<std::uint32_t>(halved.field.bricks.size());
+  const std::uint32_t forgotten = roots / 2;
+  tree.forget_about({forgotten});
+  tree.join();
+  int kept = 0;
+  int whole = 0;
+  for (std::uint32_t b = 0; b < roots; ++b) {
+    const double positions = (tree.low(b) - tree.low(forgotten)).cwiseAbs().maxCoeff() / (4.0 * kVoxel);
+    const bool is_whole = tree.whole(b) == 0xff;
+    EXPECT_EQ(is_whole, positions < 2.5) << b;
+    ++(is_whole ? whole : kept);
+  }
+  EXPECT_GT(kept, 10);
+  EXPECT_GT(whole, 10);
+  const std::uint32_t live = tree.live_count();
+  tree.halve(forgotten, 0x01, {});
+  tree.join();
+  EXPECT_EQ(tree.live_count(), live + 1);
 }
 
 TEST(FacetSets, AreStoredOnce) {
