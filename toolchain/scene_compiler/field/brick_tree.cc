@@ -359,7 +359,7 @@ void BrickTree::forget_contents(std::uint32_t brick) {
   exact_[brick].reset();
   Place& place = places_[brick];
   if (place.level > 0) {
-    if (!fine_[brick - field_.bricks.size()].is_forgotten) ++forgotten_;
+    if (!is_forgotten(brick)) ++forgotten_;
     place.halved = 0xff;
     refuses_[brick] = false;
     fine_[brick - field_.bricks.size()] = {.exact = {}, .stored = {}, .is_forgotten = true};
@@ -483,7 +483,8 @@ void BrickTree::join() {
   for (int level = 1; level <= format::kMaxRefinement; ++level) {
     std::vector<std::uint32_t> bricks;
     for (std::uint32_t b = 0; b < brick_count(); ++b) {
-      if (places_[b].level == level && (all || changed_in_[places_[b].root] == joins_)) bricks.push_back(b);
+      const bool changed = all || changed_in_[places_[b].root] == joins_;
+      if (places_[b].level == level && changed && !is_forgotten(b)) bricks.push_back(b);
     }
     parallel::for_each_index(bricks.size(), [&](std::size_t i) { join_brick(bricks[i]); });
   }
@@ -739,6 +740,7 @@ void BrickTree::round(double slack) {
   const auto clamped = [&](float value) { return std::clamp(static_cast<double>(value) + slack, -most, most); };
   double largest = voxel_size_;
   for (std::uint32_t b = 0; b < brick_count(); ++b) {
+    if (is_forgotten(b)) continue;
     for (const float value : stored(b).value)
       largest = std::max(largest, std::ldexp(std::abs(clamped(value)), level(b)));
   }

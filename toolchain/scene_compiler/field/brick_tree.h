@@ -166,6 +166,9 @@ class BrickTree {
     int level;
   };
 
+  bool is_forgotten(std::uint32_t brick) const {
+    return places_[brick].level > 0 && fine_[brick - field_.bricks.size()].is_forgotten;
+  }
   Leaf coarsest_about(std::uint32_t brick, const std::array<int, 3>& node, const std::array<Leaf, 26>& about) const;
   std::uint32_t root_at(const BrickPosition& position) const;
   void forget_contents(std::uint32_t brick);
