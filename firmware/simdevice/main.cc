@@ -40,6 +40,9 @@ at SIGTERM, SIGINT, SIGHUP or after --duration and then prints its figures.
 Exit codes: 0 done, 64 usage, 65 bad data, 66 no such input, 69 an interface is missing, 77 no right, 78 bad configuration)";
 
 constexpr std::int64_t kLongestWait_ns = 100'000'000;  // chosen: signals and --duration are noticed within 0.1 s
+/// The operator holds the enable switch no earlier than this after the panel has started. Chosen: the controller, which
+/// starts the panel with the drives, waits for the switch soon after, also where it is traced or its machine is busy.
+constexpr std::int64_t kOperatorNotices_ns = 300'000'000;
 
 struct Options {
   std::string controller;
@@ -99,8 +102,13 @@ void simulate(const Options& options) {
   hal::MonotonicClock clock;
   const std::int64_t end_ns =
       options.duration ? clock.now_ns() + static_cast<std::int64_t>(1e9 * *options.duration) : sim::kNever;
+  sim::CanNodes& nodes = device->nodes();
+  const sim::CanopenNode& panel = nodes.node(nodes.node_count() - 1);
+  std::int64_t stopped_ns = 0;  // until then the panel is not operational; each start of a controller resets it
   while (!ended.load(std::memory_order_relaxed) && clock.now_ns() < end_ns) {
     const std::int64_t wanted_ns = bridge->poll(clock.now_ns());
+    if (panel.nmt_state() != hal::canopen::kNmtOperational) stopped_ns = nodes.now_ns();
+    nodes.hold_enable_switch(nodes.now_ns() >= stopped_ns + kOperatorNotices_ns);
     wait_for_frames(wires, wanted_ns - clock.now_ns());
   }
   print_report(*device, *bridge, *arm);
@@ -120,8 +128,10 @@ int main(int argc, char** argv) {
   app.add_option("--scene", options.scene, "scene image, instead of scene.image")->option_text("FILE");
   app.add_option(
          "--enable-after", options.enable_after,
-         fmt::format("time of the arm in seconds from which the operator holds the enable switch; default: {:g}",
-                     options.enable_after))
+         fmt::format(
+             "time of the arm in seconds from which the operator holds the enable switch, {:g} s after the start "
+             "of the panel at the earliest; default: {:g}",
+             1e-9 * static_cast<double>(kOperatorNotices_ns), options.enable_after))
       ->check(CLI::Range(0.0, 1e6))
       ->option_text("SECONDS");
   app.add_option("--duration", options.duration, "seconds until the run ends; default: no limit")

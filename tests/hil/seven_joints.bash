@@ -39,7 +39,7 @@ run_seven_joints() {  # fd|classical
   else
     begin_at_the_teapot 0.393
   fi
-  start_device 1.5  # seven joints take the controller longer to check
+  start_device 1.5
   "$HIL_BIN/godobject-controller" "$config" --scene "$HIL_SCENE" --bus "$devices" --duration "$seconds" \
     >"$HIL_WORK/controller" 2>&1 || code=$?
   sed -E "s/^.* us(, | of |\$).*/& ($HIL_CLOCK)/" "$HIL_WORK/controller"
