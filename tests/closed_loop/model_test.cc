@@ -204,6 +204,21 @@ TEST(RightModel, LetsAHandSwingIt) {
   EXPECT_GE(unhindered, 24) << "of 48; others are too fast, or reach a limit of the arm";
 }
 
+/// A force that stays the same on a long way, but is not that of a weight: it pushes sideways.
+TEST(RightModel, LetsAnEvenForcePushItSideways) {
+  for (const Vector3& force : {Vector3(3.0, 0.0, 0.0), Vector3(0.0, 3.0, 0.0), Vector3(-2.0, 2.0, 0.0)}) {
+    SimulatedRun::Options options;
+    options.load = [&force](std::int64_t cycle, const sim::BodyState&) {
+      return cycle > 800 ? Wrench{force, Vector3::Zero()} : Wrench{};
+    };
+    SimulatedRun run(scene(), options);
+    run.run(1900);
+    const Stop stop = stop_of(run, 800);
+    EXPECT_EQ(stop.fault, Fault::kNone) << force.transpose() << " N: " << describe(stop.fault);
+    EXPECT_GT(stop.in_all, 0.2);
+  }
+}
+
 /// A hand that leads the tool out of a contact still moves while the arm engages.
 TEST(RightModel, LetsAHandMoveItWhileItEngages) {
   for (const Vector3& way : kWays) {
