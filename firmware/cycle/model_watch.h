@@ -27,8 +27,9 @@ class ModelWatch {
   /// lighter payload, whose elbow swings, is not found.
   static constexpr double kSteady = 0.25;
   /// Ways of the tool under a constant torque of wrong masses, and the least times that they take, that are a drift:
-  /// while it renders, and before. A hand that swings the tool pushes evenly for a shorter time: with 300 ms in place
-  /// of 400 one is stopped, and with 150 in place of 200 one that leads the tool out of a contact.
+  /// while it renders or is led out of an object, and before. A hand that swings the tool pushes evenly for a shorter
+  /// time: with 300 ms in place of 400 one is stopped, and with 150 in place of 200 one that leads the tool out of a
+  /// contact.
   static constexpr double kDrift = 0.1;  // [m]
   static constexpr std::uint32_t kDrift_ms = 400;
   static constexpr double kEarlyDrift = 0.01;

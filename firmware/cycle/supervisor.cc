@@ -140,8 +140,9 @@ Fault Supervisor::find_fault_with_power(const Observation& seen) const noexcept 
   if (seen.joint_beyond_limit >= 0) return Fault::kJointLimit;
   if (seen.wrong_torque_joint >= 0) return Fault::kTorqueWrong;
   if (limited_joint_ >= 0) return Fault::kDriveLimited;
-  if (mode_ == Mode::kRunning && seen.drifts) return Fault::kDrifts;
-  if (mode_ >= Mode::kSignTest && mode_ <= Mode::kEngaging && seen.drifts_early) return Fault::kNotBalanced;
+  const bool before = mode_ >= Mode::kSignTest && mode_ <= Mode::kEngaging;
+  if (seen.drifts && (mode_ == Mode::kRunning || (before && led_out_))) return Fault::kDrifts;
+  if (seen.drifts_early && before && !led_out_) return Fault::kNotBalanced;
   if (too_late_) return seen.overrun_ns >= seen.computed_late_ns ? Fault::kOverruns : Fault::kComputedLate;
   return seen.sends_failed >= cycles_.to_loss ? Fault::kSendFailed : Fault::kNone;
 }
@@ -166,7 +167,11 @@ void Supervisor::advance(const Observation& seen) noexcept {
     case Mode::kEnabling: return wait_for_power(seen);
     case Mode::kSignTest: return test_sign(seen);
     case Mode::kArmed:
-      if (!seen.inside && seen.contact_force < parameters_.engage_force) enter(Mode::kEngaging);
+      if (!seen.inside && seen.contact_force < parameters_.engage_force) {
+        enter(Mode::kEngaging);
+      } else {
+        led_out_ = true;
+      }
       return;
     case Mode::kEngaging: return raise_share();
     case Mode::kEnding: return lower_share();
@@ -230,6 +235,7 @@ void Supervisor::wait_for_enable_switch(const Observation& seen) noexcept {
   } else if (switch_was_released_) {
     reference_ = seen.q;
     sign_test_.restart();
+    led_out_ = false;
     enter(Mode::kEnabling);
   }
 }

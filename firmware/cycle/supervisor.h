@@ -159,6 +159,7 @@ class Supervisor {
   bool ending_ = false;
   bool switch_was_released_{};  // since kIdle began, with the emergency stop released
   bool sign_tested_;
+  bool led_out_ = false;  // the operator leads the tool out of a contact, or away from an object, before it engages
   double share_ = 0.0;
   double end_step_{};                            // of the share, a cycle
   JointVector reference_ = JointVector::Zero();  // joint positions at the beginning of a mode in which none may move

@@ -549,6 +549,42 @@ TEST(SupervisorModes, RenderNothingAgainUntilTheContactForceIsSmallAfterAReset) 
   EXPECT_NEAR(bench.step().share, 0.1, 1e-12) << "from zero again";
 }
 
+/// Who leads the tool out of an object pushes it before it engages; only a long way is then a drift.
+TEST(SupervisorModes, LetTheOperatorLeadTheToolOut) {
+  for (const bool far : {false, true}) {
+    for (const bool engaging : {false, true}) {
+      Bench bench = bench_in(Mode::kArmed);
+      bench.seen.inside = true;
+      bench.step();
+      bench.seen.inside = !engaging;
+      bench.step();
+      ASSERT_EQ(bench.supervisor.mode(), engaging ? Mode::kEngaging : Mode::kArmed);
+      bench.seen.drifts_early = true;
+      bench.seen.drifts = far;
+      bench.step();
+      EXPECT_EQ(bench.supervisor.fault(), far ? Fault::kDrifts : Fault::kNone) << engaging;
+    }
+  }
+}
+
+/// The next time that it gets power the arm is not led out.
+TEST(SupervisorModes, ForgetThatTheOperatorLedTheToolOut) {
+  Bench bench = bench_in(Mode::kArmed);
+  bench.seen.inside = true;
+  bench.step();
+  bench.seen.emergency_stop = true;
+  ASSERT_GE(bench.run_to(Mode::kStopped), 0);
+  bench.seen.emergency_stop = bench.seen.enable_switch = bench.seen.inside = false;
+  bench.seen.reset_requested = true;
+  ASSERT_GE(bench.run_to(Mode::kIdle), 0);
+  bench.seen.reset_requested = false;
+  bench.seen.enable_switch = true;
+  ASSERT_GE(bench.run_to(Mode::kEngaging), 0);
+  bench.seen.drifts_early = true;
+  bench.step();
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kNotBalanced);
+}
+
 /// While it waits for the switch somebody may move a joint; motion counts from the moment at which power is asked for.
 TEST(SupervisorModes, CountMotionOfAPoweredJointFromTheRequestForPower) {
   Bench bench(short_start(/*sign_test=*/true));
