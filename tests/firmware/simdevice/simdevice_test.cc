@@ -108,7 +108,7 @@ TEST_F(SimdeviceTest, RefusesInOneLineWithTheRightCode) {
   using Arguments = std::vector<std::string>;
   EXPECT_EQ(run({"--help"}), 0);
   EXPECT_TRUE(says("Exit codes: 0 done")) << text("log.txt");
-  EXPECT_TRUE(says("holds the enable switch; default: 3")) << text("log.txt");
+  EXPECT_TRUE(says("at the earliest; default: 3")) << text("log.txt");
   const std::initializer_list<std::pair<Arguments, std::pair<int, const char*>>> cases = {
       {{}, {64, "CONTROLLER"}},
       {{"c.toml"}, {64, "--bus"}},

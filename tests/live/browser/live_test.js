@@ -6,7 +6,7 @@ const {
   assertDistances, assertLegend, coloursOfNearest, placesOf,
 } = require('../../support/browser/distances.js');
 const {
-  assertFitsPhone, openTab, phone, pixels, runTests, softwarePictures,
+  assertFitsPhone, openTab, phone, pixels, runTests, softwarePictures, wide,
 } = require('../../support/browser/tabs.js');
 
 const [, , chromium, address] = process.argv;
@@ -379,7 +379,7 @@ const tests = {
 
 const speed = {
   async 'draws 30 pictures a second without a graphics card'(browser) {
-    const tab = await open(browser);
+    const tab = await open(browser, { viewport: wide });
     await grab(tab);
     let most = 0;
     for (let second = 0; second < 12 && most < 30; ++second) { // the first ones make the page simpler

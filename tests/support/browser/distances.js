@@ -73,7 +73,10 @@ async function assertDistances(tab, count, tolerance) {
   }
 }
 
-/** Returns colours beside the outermost one of the nearest vertices, seen from beside the body: red, green, blue. */
+/**
+ * Returns the colours about the outermost one of the nearest vertices, each once, seen from beside the body: red, green,
+ * blue, in steps of 8. A pixel is some thousandths of a millimetre, by which the body may move after it was measured.
+ */
 function coloursOfNearest(tab) {
   return tab.evaluate(() => {
     const { picture } = window.godobjectPage;
@@ -96,9 +99,14 @@ function coloursOfNearest(tab) {
     camera.position.copy(position);
     camera.quaternion.copy(quaternion);
     picture.invalidate();
-    // above the middle, because the edge of the body has a line
-    const { data } = copy.getImageData(canvas.width / 2, canvas.height / 2 - 6, 1, 4);
-    return [0, 4, 8, 12].map((at) => [...data.subarray(at, at + 3)]);
+    const around = 24; // px
+    const { data } = copy.getImageData(canvas.width / 2 - around, canvas.height / 2 - around, 2 * around, 2 * around);
+    const colours = new Map();
+    for (let at = 0; at < data.length; at += 4) {
+      const colour = [...data.subarray(at, at + 3)].map((value) => value & ~7);
+      colours.set(colour.join(), colour);
+    }
+    return [...colours.values()];
   });
 }
 
