@@ -637,11 +637,13 @@ std::optional<BrickTree::BrickFacets> BrickTree::find_facets(std::uint32_t brick
   if (refuses_[brick]) return {};
   const std::uint64_t cells = weighed_cells(brick, *exact_[brick]);
   const double edge = cell_edge(level(brick));
+  const double half_brick = 0.5 * kBrickCells * edge;
+  const auto of_brick = facets_.about(low(brick) + Vector3d::Constant(half_brick), half_brick);
   BrickFacets facets;
   for (int cell = 0; cell < format::kCellsPerBrick; ++cell) {
     if ((cells >> cell & 1) == 0) continue;
     const Vector3d center = cell_center(brick, cell);
-    auto near = facets_.near(center, 0.5 * edge);
+    auto near = facets_.near(center, 0.5 * edge, of_brick);
     if (!near) return {};
     const auto planes = facets_.convex_planes(center, 0.5 * edge, *near);
     std::erase_if(*near, [&](auto number) { return std::binary_search(planes.begin(), planes.end(), number); });

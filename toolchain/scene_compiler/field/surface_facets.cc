@@ -12,6 +12,7 @@
 
 #include "core/scene/facets.h"
 #include "toolchain/parallel/parallel.h"
+#include "toolchain/scene_compiler/field/near_facets.h"
 #include "toolchain/scene_compiler/mesh/body_mesh.h"
 #include "toolchain/scene_compiler/mesh/components.h"
 #include "toolchain/scene_compiler/mesh/flat_vertices.h"
@@ -51,19 +52,26 @@ Vector3d vertex_normal(const TriangleMesh& mesh, const std::vector<Vector3d>& fa
   return sum;
 }
 
-/// Adds the triangles that are near to one of the parts of a cube, divided so many times: the balls about small parts
-/// reach less far beyond them.
-void add_near(const NearTriangles& near, const Vector3d& center, double half_edge, int divisions,
-              std::vector<std::uint32_t>& numbers) {
-  if (divisions == 0 || near.size() <= 1) {
-    const std::vector<std::uint32_t> ids = near.ids();
-    numbers.insert(numbers.end(), ids.begin(), ids.end());
+/// Adds the facets that are near to one of the parts of a cube, divided so many times: the balls about small parts
+/// reach less far beyond them. A part whose facets have all been added is not divided.
+void add_near(NearFacets& search, const std::vector<std::uint32_t>& near, const Vector3d& center, double half_edge,
+              int divisions, std::vector<std::uint32_t>& numbers) {
+  const auto is_added = [&](std::uint32_t number) {
+    return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
+  };
+  if (std::all_of(near.begin(), near.end(), is_added)) return;
+  if (divisions == 0 || near.size() == 1) {
+    for (const std::uint32_t number : near) {
+      if (!is_added(number)) numbers.push_back(number);
+    }
     return;
   }
+  std::vector<std::uint32_t> of_part;
   for (int part = 0; part < 8; ++part) {
     const Vector3d side((part & 1) != 0 ? 0.5 : -0.5, (part & 2) != 0 ? 0.5 : -0.5, (part & 4) != 0 ? 0.5 : -0.5);
     const Vector3d middle = center + half_edge * side;
-    add_near(NearTriangles(near, middle, kHalfDiagonal * half_edge), middle, 0.5 * half_edge, divisions - 1, numbers);
+    search.find(near, middle, kHalfDiagonal * half_edge, of_part);
+    add_near(search, of_part, middle, 0.5 * half_edge, divisions - 1, numbers);
   }
 }
 
@@ -258,13 +266,23 @@ void SurfaceFacets::bar_buried(const SolidSurface& surface) {
   });
 }
 
+std::vector<std::uint32_t> SurfaceFacets::about(const Vector3d& center, double half_edge) const {
+  return NearTriangles(tree_, center, 2.0 * kHalfDiagonal * half_edge).ids();
+}
+
 std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& center, double half_edge) const {
-  if (facets_.empty()) return {};
-  const NearTriangles near(tree_, center, 2.0 * kHalfDiagonal * half_edge);
+  return near(center, half_edge, about(center, half_edge));
+}
+
+std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& center, double half_edge,
+                                                              std::span<const std::uint32_t> about) const {
+  if (about.empty()) return {};
+  NearFacets search(facets_);
+  std::vector<std::uint32_t> of_cube;
+  search.find(about, center, 2.0 * kHalfDiagonal * half_edge, of_cube);
   std::vector<std::uint32_t> numbers;
-  add_near(near, center, half_edge, kParts, numbers);
+  add_near(search, of_cube, center, half_edge, kParts, numbers);
   std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   if (numbers.size() > format::kMostFacets) return {};
   std::vector<Vector3d> planes;
   for (const std::uint32_t number : numbers) {
@@ -403,21 +421,23 @@ void FacetDifference::add(const Cell& cell, const Box& box, std::span<const std:
   const double radius = 2.0 * kHalfDiagonal * box.half_edge * cell.edge;
   std::array<double, format::kMostFacets> squared;
   double nearest = std::numeric_limits<double>::infinity();
-  Vector3d normal = Vector3d::Zero();
+  double furthest = nearest;  // squared, of a facet that counts
+  std::size_t first = 0;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const format::Facet& f = facets_.facets[numbers[i]];
-    const Vector3d on = nearest_point_on_triangle(p, vector(f.vertex[0]), vector(f.vertex[1]), vector(f.vertex[2]));
-    squared[i] = (on - p).squaredNorm();
+    squared[i] = squared_distance_within(facets_.facets[numbers[i]], p, furthest);
     if (squared[i] >= nearest) continue;
     nearest = squared[i];
-    normal = face_normal(f);
+    const double far = std::sqrt(nearest) + 2.0 * radius;
+    furthest = far * far;
+    first = i;
   }
-  const double furthest = std::sqrt(nearest) + 2.0 * radius;
+  const Vector3d normal = face_normal(facets_.facets[numbers[first]]);
   std::array<std::uint32_t, format::kMostFacets> near;
-  std::size_t count = 0;
+  near[0] = numbers[first];  // probably the nearest one of some parts
+  std::size_t count = 1;
   double squared_apart = 0.0;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (squared[i] > furthest * furthest) continue;
+    if (squared[i] > furthest || i == first) continue;
     near[count++] = numbers[i];
     squared_apart = std::max(squared_apart, (face_normal(facets_.facets[numbers[i]]) - normal).squaredNorm());
   }

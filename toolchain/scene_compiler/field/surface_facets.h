@@ -32,8 +32,15 @@ class SurfaceFacets {
 
   /// Returns the facets that may be the nearest ones of a point in the cube about `center`, ascending; none if one
   /// of them does not tell the side, if there are more than format::kMostFacets, or if they lie in more than 24 planes.
-  /// Includes few others. Cost: a search among all triangles, and some hundred distances for each that is near.
+  /// Includes few others. Cost: a search among all triangles, and some comparisons for each that is near.
   std::optional<std::vector<std::uint32_t>> near(const Eigen::Vector3d& center, double half_edge) const;
+
+  /// The same among the facets `about` a larger cube, without the search.
+  std::optional<std::vector<std::uint32_t>> near(const Eigen::Vector3d& center, double half_edge,
+                                                 std::span<const std::uint32_t> about) const;
+
+  /// Returns the facets among which are the nearest ones of all points in a cube; none if there are no facets.
+  std::vector<std::uint32_t> about(const Eigen::Vector3d& center, double half_edge) const;
 
   /// Returns the facets of format::FacetSet's first part, ascending: of the planes of the facets near a cube (`near`),
   /// those that are the lowest for some point of it. None unless the free space about the cube is convex. Cost: a
