@@ -140,7 +140,7 @@ class Center {
 
   Held held;
   bool cut{};               ///< the motion was shortened so as not to jump over the surface
-  bool outdated{};          ///< the half spaces do not hold at the end: it is past an edge, or the surface turned
+  bool outdated{};          ///< came nearer, but the half spaces do not hold there: past an edge, or the surface turned
   bool is_provisional{};    ///< another motion may follow at once, as in ContactSubsteps
   bool infeasible = false;  ///< the half spaces had no common point
 
@@ -152,6 +152,7 @@ class Center {
   bool push_obstacle(const Vector3& end) noexcept;
   double overshoot(const Vector3& motion) noexcept;
   bool look_again(const Vector3& end, const Vector3& aim, MotionShare& share) noexcept;
+  bool has_work(MotionShare& share) noexcept;
 
   const Voxelmap& field_;
   const WorkspaceBox& box_;
@@ -165,6 +166,7 @@ class Center {
   Obstacle obstacle_;
   WorkMeter& work_;
   detail::Budget budget_{work_};
+  bool is_last_{};  // what was set aside of the budget is used up now, for a short motion
 };
 
 /// Adds the half space of the contact at the start of the sub-step. Where the field has no gradient there is none: deep
@@ -272,6 +274,19 @@ bool Center::look_again(const Vector3& end, const Vector3& aim, MotionShare& sha
   return true;
 }
 
+/// Tells whether work is left for another attempt. Once only the part that was set aside is left, the motion becomes as
+/// short as a quarter of what the last attempt has proved: else the next cycle would begin at the same place and spend
+/// its budget on the same motion again.
+bool Center::has_work(MotionShare& share) noexcept {
+  if (!work_.is_spent()) return true;
+  if (is_last_) return false;
+  is_last_ = true;
+  work_.set_aside(0);
+  share.forgo_looks();
+  share.limit_to(0.25 * share.value() * (obstacle_.exhausted ? obstacle_.share : 1.0));
+  return !work_.is_spent();
+}
+
 bool Center::step(const Vector3& goal) noexcept {
   const Vector3 aim = goal + beyond_ - at_;
   push_contact();
@@ -280,7 +295,8 @@ bool Center::step(const Vector3& goal) noexcept {
   if (spaces_.count > 0) constrain(aim);
   outdated = false;
   MotionShare share(1.0);
-  while (share.next() && !work_.is_spent()) {
+  obstacle_.exhausted = false;
+  while (share.next() && has_work(share)) {
     const Vector3 motion = share.value() * motion_;
     const bool follows = share.is_whole() && held.count == 0;
     const Vector3 end = follows ? goal : box_.nearest(at_ + motion);
@@ -296,8 +312,10 @@ bool Center::step(const Vector3& goal) noexcept {
       }
       at_ = end;
       cut = share.is_cut();
-      is_provisional = (share.looks_left() < kMostSecondLooks || share.is_stopped()) &&
-                       (motion_ - aim).squaredNorm() < aim.squaredNorm() && motion.norm() > lengths_.margin;
+      const bool is_nearer = (motion_ - aim).squaredNorm() < aim.squaredNorm();
+      outdated = outdated && is_nearer;
+      is_provisional =
+          (share.looks_left() < kMostSecondLooks || share.is_stopped()) && is_nearer && motion.norm() > lengths_.margin;
       return true;
     }
     if (obstacle_.exhausted) {
@@ -347,6 +365,7 @@ Status ball_cycle(const Voxelmap& field, const Parameters& q, const ContactLengt
   const Vector3& goal = input.H_WD.translation;
   work.start(q.work_budget);
   work.add(Work::kCycle);
+  work.set_aside(q.work_budget / 4);
   Center center(field, q.workspace, lengths, state.H_WS.translation, input.beyond_W, work);
   path.clear();
   const BallResult result = advance(center, goal, input.H_WD.rotation, state.inside, path);

@@ -184,7 +184,7 @@ class ContactSubsteps {
     while (share_.next()) {
       result_.out_of_work = work_.is_spent();
       if (result_.out_of_work) break;
-      if (!set_trial_pose()) {
+      if (!set_trial_pose() || leads_away()) {
         share_.halve();
         continue;
       }
@@ -231,9 +231,10 @@ class ContactSubsteps {
 
   /// Tells whether another sub-step follows.
   bool remain() noexcept {
-    const bool do_remain = share_.value() != 0.0 && (result_.cut || is_outdated_ || is_provisional()) &&
-                           !result_.inside && budget_.balls > 0 && result_.substeps < kMaxSubsteps &&
-                           free_substeps_ < kMostFreeSubsteps;
+    // a motion that regains lost gaps may lead away by a margin: one in a cycle
+    const bool is_unfinished = result_.cut || (is_outdated_ && is_nearer_) || is_provisional();
+    const bool do_remain = share_.value() != 0.0 && is_unfinished && !result_.inside && budget_.balls > 0 &&
+                           result_.substeps < kMaxSubsteps && free_substeps_ < kMostFreeSubsteps;
     if (!do_remain) return false;
     result_.out_of_work = !work_.has(work_.spent() - work_before_);  // another one may take as much as the last one
     return !result_.out_of_work;
@@ -630,6 +631,14 @@ class ContactSubsteps {
     H1_ = step_.follows && share_.is_whole() ? input_.H_WD : H0_ * set_matrix(motion_);
     cut_off(scene_.parameters->workspace, H0_, H1_, motion_);
     return travel(lengths_.sphere, motion_) <= around_.free_displacement;
+  }
+
+  /// Tells whether a motion ends farther from the device than rest, by more than a margin. Only a motion that the
+  /// solver has not finished may: the faces of the workspace then take the part of it that would lead nearer.
+  bool leads_away() const noexcept {
+    if (!step_.unconverged || !scene_.parameters->workspace.limited || result_.inside) return false;
+    const double left = std::sqrt(lengths_.metric.squared(on_to_device(H1_, unconstrained_motion(H1_, input_.H_WD))));
+    return left > std::sqrt(lengths_.metric.squared(on_to_device(H0_, free_))) + lengths_.margin;
   }
 
   bool are_samples_free() noexcept {

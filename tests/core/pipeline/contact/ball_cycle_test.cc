@@ -713,6 +713,31 @@ TEST(BallCycle, TellsThatWorkWasMissingWhereTheCentreStays) {
   EXPECT_FALSE(run.report.out_of_work) << "the plane is in the way, not the work";
 }
 
+/// A chord close to a surface takes many look-ups. Whatever part of it the budget covers, a motion that is cut goes on:
+/// else the next cycle would spend its budget at the same place on the same motion.
+TEST(BallCycle, GoesOnWhateverPartOfAChordTheBudgetCovers) {
+  int cut = 0;
+  for (const SceneImage* image : {&plane(), &flat_block(), &maze(), &flat_maze()}) {
+    for (const std::uint64_t budget : {20'000u, 50'000u, 100'000u, 200'000u, 400'000u}) {
+      for (const Vector3& goal :
+           {Vector3(0.03, 0.0, -0.002), Vector3(-0.02, 0.015, -0.004), Vector3(0.0, 0.03, 0.001)}) {
+        BallRun run(*image, {0.0, 0.0, 0.03});
+        ASSERT_EQ(run.step({0.001, 0.002, -0.001}), Status::kOk);  // on the surface
+        run.q.work_budget = budget;
+        for (int cycle = 0; cycle < 200; ++cycle) {
+          const Vector3 before = run.center();
+          ASSERT_EQ(run.step(goal), Status::kOk);
+          if (!run.report.out_of_work) break;
+          ++cut;
+          ASSERT_GT((run.center() - before).norm(), 0.0) << budget << ", cycle " << cycle << " to " << goal.transpose();
+        }
+      }
+    }
+  }
+  std::printf("[ measured ] out of work in %d cycles\n", cut);
+  EXPECT_GT(cut, 100);
+}
+
 /// Both cycles start from the same pose in each cycle: they give the same motion, force, and report.
 TEST(BallCycle, DoesAsTheCycleForAnyBodyDoes) {
   int compared = 0, differ = 0, cut = 0, substeps = 0;
