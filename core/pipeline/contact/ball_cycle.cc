@@ -166,7 +166,7 @@ class Center {
   Obstacle obstacle_;
   WorkMeter& work_;
   detail::Budget budget_{work_};
-  bool is_last_{};  // what was set aside of the budget is used up now, for a short motion
+  bool is_last_{};  // the part of the budget that was set aside serves now, for a short motion
 };
 
 /// Adds the half space of the contact at the start of the sub-step. Where the field has no gradient there is none: deep
