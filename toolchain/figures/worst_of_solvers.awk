@@ -3,7 +3,7 @@
 # usage: awk -f worst_of_solvers.awk statistics.csv
 BEGIN {
   FS = ","
-  tight["round-peg"] = tight["rectangular-peg"] = tight["nut-m16"] = 1
+  tight["round-peg"] = tight["rectangular-peg"] = tight["nut-m16"] = tight["gears"] = 1
 }
 NR == 1 {
   for (i = 1; i <= NF; i++) at[$i] = i

@@ -72,6 +72,7 @@ void add_parts(Chapter& chapter, const AssemblyRequest& request) {
   add_scene(chapter, request, "nut-m16", "", 400.0,
             [=](const Pair& pair) { return nut_case(bound::kNut, pair, m16, effort); });
   add_path(chapter, request, bound::kNut, "nut-m16", "nut-m16", 60.0);
+  add_path(chapter, request, bound::kGear, "gears", "gears", 60.0);
 }
 
 }  // namespace
