@@ -149,7 +149,7 @@ RunRecords::Setup Session::records_setup() const {
           .incidents = telemetry.incidents,
           .needs_incidents = telemetry.needs_incidents,
           .start = now,
-          .joint_count = config_.device.model.joint_count,
+          .format = {config_.device.model.joint_count, config_.workspace.turn},
           .period = config_.device.bus.period,
           .every = static_cast<std::uint32_t>(telemetry.every),
           .buses = telemetry.bus,

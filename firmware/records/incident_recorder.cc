@@ -29,7 +29,7 @@ IncidentRecorder::Incident::Incident(const Setup& setup, const TelemetryRecord& 
     : folder(setup.folder, setup.name.empty() ? run_name(std::chrono::system_clock::now()) : setup.name),
       ends_ns(stop.times.deadline_ns + kAfter_ns),
       telemetry(folder.create("telemetry.csv")) {
-  telemetry->write(telemetry_header(setup.joint_count), 0);
+  telemetry->write(telemetry_header(setup.format.joint_count), 0);
   if (!setup.bus_names.empty()) frames.emplace(folder.create("can.log"));
   for (const RecordFile& fact : setup.facts) {
     folder.create(fact.name).write(fact.name == kRunFile ? fact.text + stop_table(stop) : fact.text, 1);
@@ -109,7 +109,7 @@ void IncidentRecorder::write_rows(LogFile& file) {
   const std::size_t end = std::min(rows_.size(), next_row_ + kRowsOfAPart);
   const std::size_t count = end - next_row_;
   text_.clear();
-  for (; next_row_ < end; ++next_row_) append_telemetry_row(rows_[next_row_], setup_.joint_count, text_);
+  for (; next_row_ < end; ++next_row_) append_telemetry_row(rows_[next_row_], setup_.format, text_);
   file.write(text_, count);
 }
 

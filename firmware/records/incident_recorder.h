@@ -16,6 +16,7 @@
 #include "firmware/records/log_file.h"
 #include "firmware/records/recent_frames.h"
 #include "firmware/records/record_folder.h"
+#include "firmware/records/telemetry_rows.h"
 #include "hal/can_log_ring.h"
 
 namespace godobject::firmware {
@@ -40,7 +41,7 @@ class IncidentRecorder {
   struct Setup {
     std::filesystem::path folder{};        ///< of all incidents
     std::string name{};                    ///< of the incident's folder; empty: the time of the stop in UTC
-    int joint_count = 0;                   ///< of the telemetry
+    TelemetryFormat format = {};           ///< of the telemetry
     std::vector<std::string> bus_names{};  ///< bus 0 first
     std::vector<RecordFile> facts{};       ///< written into each incident's folder
     std::uintmax_t least_room = 0;         ///< with less room on the disk nothing is written [bytes]

@@ -49,7 +49,7 @@ RunRecords::RunRecords(Setup setup, TelemetryRing& ring, hal::CanLogRing& bus_ri
   warn_of_little_room(setup);
   IncidentRecorder::Setup incidents{.folder = setup.incidents,
                                     .name = "",
-                                    .joint_count = setup.joint_count,
+                                    .format = setup.format,
                                     .bus_names = setup.bus_names,
                                     .facts = setup.facts,
                                     .least_room = IncidentRecorder::least_room(setup.period),
@@ -58,8 +58,7 @@ RunRecords::RunRecords(Setup setup, TelemetryRing& ring, hal::CanLogRing& bus_ri
     const LatestLinks links(setup.folder, file_names(setup));
     const RecordFolder run(setup.folder, run_name(setup.start));
     run.write(setup.facts);
-    telemetry_ =
-        std::make_unique<TelemetryWriter>(run.create(TelemetryWriter::kFileName), setup.joint_count, setup.every);
+    telemetry_ = std::make_unique<TelemetryWriter>(run.create(TelemetryWriter::kFileName), setup.format, setup.every);
     if (setup.hand) hand_ = std::make_unique<HandLog>(run.create(HandLog::kFileName));
     if (setup.buses) {
       buses_ = std::make_unique<BusLogWriter>(run.create(BusLogWriter::kFileName));

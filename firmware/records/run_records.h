@@ -14,6 +14,7 @@
 #include "firmware/records/hand_log.h"
 #include "firmware/records/incident_recorder.h"
 #include "firmware/records/record_folder.h"
+#include "firmware/records/telemetry_rows.h"
 #include "firmware/records/telemetry_writer.h"
 #include "hal/can_log_ring.h"
 
@@ -28,13 +29,13 @@ class RunRecords {
     std::filesystem::path incidents{};  ///< of all incidents; empty: in the folder of the run, if it has one
     bool needs_incidents = true;        ///< false: a folder of incidents that cannot be made is only said
     std::chrono::system_clock::time_point start{};  ///< of the run
-    int joint_count = 0;
-    double period = 1e-3;                  ///< T [s]
-    std::uint32_t every = 1;               ///< cycles a row of the log; an incident has each cycle
-    bool buses = false;                    ///< the frames on the buses are logged, too
-    std::vector<std::string> bus_names{};  ///< bus 0 first
-    bool hand = false;                     ///< the work of the simulated hand is logged, too
-    std::vector<RecordFile> facts{};       ///< versions, limits and input files of the run
+    TelemetryFormat format = {};                    ///< of the telemetry
+    double period = 1e-3;                           ///< T [s]
+    std::uint32_t every = 1;                        ///< cycles a row of the log; an incident has each cycle
+    bool buses = false;                             ///< the frames on the buses are logged, too
+    std::vector<std::string> bus_names{};           ///< bus 0 first
+    bool hand = false;                              ///< the work of the simulated hand is logged, too
+    std::vector<RecordFile> facts{};                ///< versions, limits and input files of the run
     std::function<void(const std::string&)> say = [](const std::string&) {};  ///< a line for the operator
   };
 

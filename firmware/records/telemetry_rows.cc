@@ -41,26 +41,28 @@ std::string telemetry_header(int joint_count) {
   }
   return text +
          ",fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m,fault_joint,alarm,alarm_joint,"
-         "drives_limited,drives_warm\n";
+         "drives_limited,drives_warm,wqw,wqx,wqy,wqz\n";
 }
 
-void append_telemetry_row(const TelemetryRecord& record, int joint_count, std::string& text) {
+void append_telemetry_row(const TelemetryRecord& record, const TelemetryFormat& format, std::string& text) {
   const CycleRecord& cycle = record.cycle;
   fmt::format_to(std::back_inserter(text), "{:.6f},{:.3f},{:.3f},{},{},{:.4g},{},{},{}",
                  1e-9 * static_cast<double>(record.times.deadline_ns), 1e-3 * static_cast<double>(record.times.late_ns),
                  1e-3 * static_cast<double>(record.times.compute_ns), name(cycle.mode), static_cast<int>(cycle.fault),
                  cycle.share, name(cycle.outcome), cycle.contacts, cycle.lost);
-  append(text, cycle.q.head(joint_count));
-  append(text, cycle.qd.head(joint_count));
-  append(text, cycle.torque.head(joint_count));
+  append(text, cycle.q.head(format.joint_count));
+  append(text, cycle.qd.head(format.joint_count));
+  append(text, cycle.torque.head(format.joint_count));
   append(text, cycle.H_WM);
   append(text, cycle.god_object_W);
   append(text, cycle.F_G_R.force, 6);
   append(text, cycle.F_G_R.torque, 6);
   append(text, std::array{cycle.penetration, cycle.absorbed, cycle.injected_damping}, 6);
   const auto warm = static_cast<std::uint8_t>(cycle.warm | cycle.temperature_lost);
-  fmt::format_to(std::back_inserter(text), ",{},{},{},{},{}\n", cycle.fault_joint + 1, static_cast<int>(cycle.alarm),
+  fmt::format_to(std::back_inserter(text), ",{},{},{},{},{}", cycle.fault_joint + 1, static_cast<int>(cycle.alarm),
                  cycle.alarm_joint + 1, std::popcount(cycle.limited), std::popcount(warm));
+  append(text, std::array{format.R_WR.w(), format.R_WR.x(), format.R_WR.y(), format.R_WR.z()});
+  text += '\n';
 }
 
 }  // namespace godobject::firmware

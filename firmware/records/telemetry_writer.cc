@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "firmware/records/telemetry_rows.h"
-
 namespace godobject::firmware {
 namespace {
 
@@ -11,14 +9,14 @@ constexpr std::uint64_t kRowsAtOnce = 64;  // rows a write call; chosen: some 40
 
 }  // namespace
 
-TelemetryWriter::TelemetryWriter(LogFile file, int joint_count, std::uint32_t every)
-    : file_(std::move(file)), joint_count_(joint_count), every_(every) {
-  file_.write(telemetry_header(joint_count), 0);
+TelemetryWriter::TelemetryWriter(LogFile file, const TelemetryFormat& format, std::uint32_t every)
+    : file_(std::move(file)), format_(format), every_(every) {
+  file_.write(telemetry_header(format.joint_count), 0);
 }
 
 void TelemetryWriter::add(const TelemetryRecord& record) {
   if (++cycles_ % every_ != 0) return;
-  append_telemetry_row(record, joint_count_, text_);
+  append_telemetry_row(record, format_, text_);
   if (++rows_ == kRowsAtOnce) flush();
 }
 

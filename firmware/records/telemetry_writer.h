@@ -6,6 +6,7 @@
 
 #include "firmware/loop/telemetry_ring.h"
 #include "firmware/records/log_file.h"
+#include "firmware/records/telemetry_rows.h"
 
 namespace godobject::firmware {
 
@@ -16,7 +17,7 @@ class TelemetryWriter {
   static constexpr const char* kFileName = "telemetry.csv";
 
   /// Writes the header. `every`: cycles a row.
-  TelemetryWriter(LogFile file, int joint_count, std::uint32_t every);
+  TelemetryWriter(LogFile file, const TelemetryFormat& format, std::uint32_t every);
 
   /// Takes the record of the next cycle.
   void add(const TelemetryRecord& record);
@@ -30,7 +31,7 @@ class TelemetryWriter {
 
  private:
   LogFile file_;
-  int joint_count_;
+  TelemetryFormat format_;
   std::uint32_t every_;
   std::uint64_t cycles_ = 0;
   std::string text_;

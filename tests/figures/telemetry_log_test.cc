@@ -100,6 +100,18 @@ TEST_F(TelemetryLogFile, NamesWhatIsWrong) {
   expect_refused(text + "0,boot,0,0,free,0,0\n", ":1: has no column");
 }
 
+/// The wrench is along the axes of the room: a turn by 90 degrees about x takes y to z. An older telemetry has no turn.
+TEST_F(TelemetryLogFile, TurnsTheWrenchToTheAxesOfTheScene) {
+  const auto with = [](std::string line, const char* more) { return line.insert(line.size() - 1, more); };
+  const TelemetryLog turned = read_telemetry_log(
+      holding(with(kHeader, ",wqw,wqx,wqy,wqz") + with(kRunning, ",0.70710678118654757,0.70710678118654757,0,0")));
+  EXPECT_EQ(turned[0].cycle.wrench.force, Vector3(3, 4, 0)) << "as it is";
+  const ReplayLog cycles = rendered(turned);
+  EXPECT_TRUE(cycles[0].wrench.force.isApprox(Vector3(3, 0, 4), 1e-12)) << cycles[0].wrench.force.transpose();
+  EXPECT_TRUE(cycles[0].wrench.torque.isApprox(Vector3(0, -2, 0), 1e-12)) << cycles[0].wrench.torque.transpose();
+  EXPECT_EQ(rendered(read_telemetry_log(holding(kHeader + kRunning)))[0].wrench.force, Vector3(3, 4, 0));
+}
+
 /// A telemetry without joints, times and energy is read; what it lacks is empty or no number, not zero.
 TEST_F(TelemetryLogFile, NeedsNoColumnsOfJointsTimesAndEnergy) {
   std::string text = kHeader;

@@ -51,6 +51,7 @@ TelemetryColumns::TelemetryColumns(std::string_view header) {
   add_if_there("late_us", late_);
   add_if_there("compute_us", compute_);
   add_if_there("absorbed_J", absorbed_);
+  for (const char* const name : {"wqw", "wqx", "wqy", "wqz"}) add_if_there(name, turn_);
 }
 
 TelemetryRow TelemetryColumns::row(std::string_view line) const {
@@ -89,10 +90,19 @@ TelemetryRow TelemetryColumns::row(std::string_view line) const {
   row.late = 1e-6 * one(late_);
   row.compute = 1e-6 * one(compute_);
   row.absorbed = one(absorbed_);
+  if (const std::vector<double> turn = numbers(turn_); turn.size() == 4) {
+    row.R_WR = Quaternion(turn[0], turn[1], turn[2], turn[3]);
+  }
   row.position = numbers(positions_);
   row.velocity = numbers(velocities_);
   row.torque = numbers(torques_);
   return row;
+}
+
+ReplayRow TelemetryRow::cycle_in_scene() const {
+  ReplayRow turned = cycle;
+  turned.wrench = {R_WR._transformVector(cycle.wrench.force), R_WR._transformVector(cycle.wrench.torque)};
+  return turned;
 }
 
 bool TelemetryColumns::has(std::string_view name) const {
@@ -136,7 +146,7 @@ TelemetryLog read_telemetry_log(const std::filesystem::path& file) {
 ReplayLog rendered(const TelemetryLog& log) {
   ReplayLog cycles;
   for (const TelemetryRow& row : log) {
-    if (row.share > 0.0) cycles.push_back(row.cycle);
+    if (row.share > 0.0) cycles.push_back(row.cycle_in_scene());
   }
   return cycles;
 }

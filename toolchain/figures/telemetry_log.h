@@ -16,15 +16,19 @@ struct TelemetryRow {
   /// As in a replay, without run times. The wrench is that on the hand, about the moving body's centre of mass and
   /// along the axes of the room.
   ReplayRow cycle;
-  std::string mode;              ///< of the supervisor
-  int fault = 0;                 ///< 0: none
-  double share = 0.0;            ///< share of the wrench that is rendered [0, 1]
-  std::vector<double> torque;    ///< of the joints [Nm]
-  std::vector<double> position;  ///< of the joints [rad]; empty: the telemetry has none; so `velocity`
-  std::vector<double> velocity;  ///< of the joints [rad/s]
-  double late = 0.0;             ///< lateness of waking [s]; NaN: the telemetry has none; so the next two
-  double compute = 0.0;          ///< computing time [s]
-  double absorbed = 0.0;         ///< energy that the rendered torques have absorbed [J]
+  std::string mode;                          ///< of the supervisor
+  int fault = 0;                             ///< 0: none
+  double share = 0.0;                        ///< share of the wrench that is rendered [0, 1]
+  std::vector<double> torque;                ///< of the joints [Nm]
+  std::vector<double> position;              ///< of the joints [rad]; empty: the telemetry has none; so `velocity`
+  std::vector<double> velocity;              ///< of the joints [rad/s]
+  double late = 0.0;                         ///< lateness of waking [s]; NaN: the telemetry has none; so the next two
+  double compute = 0.0;                      ///< computing time [s]
+  double absorbed = 0.0;                     ///< energy that the rendered torques have absorbed [J]
+  Quaternion R_WR = Quaternion::Identity();  ///< rotates directions of the room to those of the scene, if it is known
+
+  /// Returns the cycle with its wrench along the axes of the scene, as a replay has it.
+  ReplayRow cycle_in_scene() const;
 };
 
 /// A line of a telemetry that is wrong; `what` is one clause without the place.
@@ -53,6 +57,7 @@ class TelemetryColumns {
   std::size_t outcome_ = 0;
   std::vector<std::size_t> torques_, positions_, velocities_;  ///< of the joints
   std::vector<std::size_t> late_, compute_, absorbed_;         ///< one place, or none
+  std::vector<std::size_t> turn_;                              ///< four places, or none
 };
 
 using TelemetryLog = std::vector<TelemetryRow>;

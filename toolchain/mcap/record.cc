@@ -94,7 +94,7 @@ void read_cycles(const std::filesystem::path& file, Recording& recording) {
   files::require_regular_input(file, "make it with godobject-replay or godobject-controller, or check the path");
   if (figures::is_telemetry(file)) {
     recording.controller = figures::read_telemetry_log(file);
-    for (const TelemetryRow& row : recording.controller) recording.cycles.push_back(row.cycle);
+    for (const TelemetryRow& row : recording.controller) recording.cycles.push_back(row.cycle_in_scene());
   } else {
     recording.cycles = figures::read_replay_log(file);
   }

@@ -89,7 +89,7 @@ class IncidentTest : public test::FolderTest {
       record.cycle.mode = ms < 1000 ? Mode::kArmed : ms < kStop_ms ? Mode::kRunning : Mode::kStopping;
       if (ms >= kStop_ms) record.cycle.fault = fault;
       change(ms, record);
-      append_telemetry_row(record, kJoints, text);
+      append_telemetry_row(record, {kJoints}, text);
     }
     return text;
   }
@@ -356,7 +356,7 @@ TEST_F(IncidentTest, IsTheLastStopOfALog) {
     TelemetryRecord record;
     record.times.deadline_ns = s * 1'000'000'000LL;
     record.cycle.fault = s == 50 || s == 51 ? Fault::kAlarm : s >= 100 && s < 103 ? Fault::kTooFast : Fault::kNone;
-    append_telemetry_row(record, 1, text);
+    append_telemetry_row(record, {1}, text);
   }
   std::ofstream(folder_ / "telemetry.csv") << text;
   const Incident incident = read_incident(folder_);

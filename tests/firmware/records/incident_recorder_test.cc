@@ -83,7 +83,7 @@ class IncidentRecorderTest : public test::FolderTest {
   IncidentRecorder recorder(std::uintmax_t least_room = 0, std::string name = "incident") {
     return IncidentRecorder({.folder = folder_,
                              .name = std::move(name),
-                             .joint_count = 2,
+                             .format = {2},
                              .bus_names = {"can0", "can1"},
                              .facts = {{"run.toml", "program = \"x\"\n"}, {"controller.toml", "[scene]\n"}},
                              .least_room = least_room,

@@ -241,7 +241,7 @@ class RunRecordsTest : public LogFileTest {
   RunRecords::Setup setup(int joint_count, bool buses) const {
     return {.folder = folder_,
             .start = std::chrono::system_clock::time_point(std::chrono::seconds(1'796'049'055)),
-            .joint_count = joint_count,
+            .format = {joint_count},
             .buses = buses,
             .bus_names = {"can0"}};
   }

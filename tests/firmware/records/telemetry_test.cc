@@ -65,7 +65,7 @@ class TelemetryTest : public test::FolderTest {
 
 TEST_F(TelemetryTest, WritesAHeaderWithUnitsAndARowARecord) {
   {
-    TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 3, 1);
+    TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), {3}, 1);
     for (int i = 0; i < 100; ++i) ring_->push(record(i));
     drain(writer);
     EXPECT_EQ(writer.written(), 100u);
@@ -74,14 +74,15 @@ TEST_F(TelemetryTest, WritesAHeaderWithUnitsAndARowARecord) {
   const std::vector<std::string> all = lines();
   ASSERT_EQ(all.size(), 101u);
   const auto columns = [](const std::string& line) { return 1 + std::count(line.begin(), line.end(), ','); };
-  EXPECT_EQ(columns(all[0]), 9 + 3 * 3 + 14 + 9 + 5);
+  EXPECT_EQ(columns(all[0]), 9 + 3 * 3 + 14 + 9 + 9);
   for (const std::string& line : all) EXPECT_EQ(columns(line), columns(all[0]));
   EXPECT_EQ(all[0].substr(0, 22), "t_s,late_us,compute_us");
   EXPECT_EQ(all[43].substr(0, 39), "0.042000,0.000,0.000,running,0,0,free,0");
   EXPECT_NE(all[0].find("q2_rad"), std::string::npos);
-  EXPECT_TRUE(all[0].ends_with(
-      ",depth_m,absorbed_J,injected_Ns_per_m,fault_joint,alarm,alarm_joint,drives_limited,drives_warm"));
-  EXPECT_TRUE(all[43].ends_with(",-0.125,7.5,0,0,0,0,0"));
+  EXPECT_TRUE(
+      all[0].ends_with(",depth_m,absorbed_J,injected_Ns_per_m,fault_joint,alarm,alarm_joint,drives_limited,drives_warm,"
+                       "wqw,wqx,wqy,wqz"));
+  EXPECT_TRUE(all[43].ends_with(",-0.125,7.5,0,0,0,0,0,1,0,0,0"));
 }
 
 TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
@@ -110,7 +111,7 @@ TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
   cycle.alarm = hal::Alarm::kForeignWrite;
   cycle.alarm_joint = 5;
   {
-    TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 2, 1);
+    TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), {2, Quaternion(0.6, 0.0, -0.8, 0.0)}, 1);
     EXPECT_EQ(writer.file(), folder_ / "telemetry.csv");
     ring_->push(record);
     drain(writer);
@@ -123,14 +124,14 @@ TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
             "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost,q1_rad,q2_rad,qd1_rad_s,qd2_rad_s,"
             "torque1_Nm,torque2_Nm,dpx_m,dpy_m,dpz_m,dqw,dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,gqy,gqz,fx_N,fy_N,"
             "fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m,fault_joint,alarm,alarm_joint,drives_limited,"
-            "drives_warm");
+            "drives_warm,wqw,wqx,wqy,wqz");
   EXPECT_EQ(all[1],
             "1.234567,2.500,3.250,fade,3,0.4,contact,6,7,1.5,-2.5,3.5,-4.5,5.5,-6.5,0.1,0.2,0.3,0.5,-0.5,0.25,0.75,"
-            "-0.1,-0.2,-0.3,1,2,3,4,11,12,13,14,15,16,0.001,-0.02,21,2,8,6,3,4");
+            "-0.1,-0.2,-0.3,1,2,3,4,11,12,13,14,15,16,0.001,-0.02,21,2,8,6,3,4,0.6,0,-0.8,0");
 }
 
 TEST_F(TelemetryTest, WritesARowForSeveralCyclesOnRequest) {
-  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 1, 7);
+  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), {1}, 7);
   for (int i = 1; i <= 121; ++i) ring_->push(record(i));
   drain(writer);
   const std::vector<std::string> all = lines();
@@ -141,7 +142,7 @@ TEST_F(TelemetryTest, WritesARowForSeveralCyclesOnRequest) {
 /// Any number of rows, also at the number that one write call takes.
 TEST_F(TelemetryTest, WritesEveryRowOnceWhateverTheirNumber) {
   std::int64_t next = 0;
-  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 1, 1);
+  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), {1}, 1);
   for (const int rows : {0, 1, 63, 64, 65, 127, 128, 129, 200}) {
     for (int i = 0; i < rows; ++i) ring_->push(record(static_cast<int>(next++)));
     drain(writer);
@@ -192,7 +193,7 @@ TEST_F(TelemetryTest, LosesTheNewestAndCountsThemWhenNobodyReads) {
 
 TEST_F(TelemetryTest, CountsRowsThatAFullDiskDoesNotTake) {
   std::filesystem::create_symlink("/dev/full", folder_ / "telemetry.csv");
-  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), 3, 1);
+  TelemetryWriter writer(open_log(folder_ / "telemetry.csv"), {3}, 1);
   for (int i = 0; i < 1000; ++i) ring_->push(record(i));
   drain(writer);
   EXPECT_EQ(writer.written(), 0u);
@@ -230,7 +231,7 @@ TEST_F(TelemetryTest, DoesNotHoldUpTheLoopWhenTheDiskStalls) {
   ASSERT_EQ(::mkfifo((folder_ / "telemetry.csv").c_str(), 0600), 0);
   const int pipe = ::open((folder_ / "telemetry.csv").c_str(), O_RDONLY | O_NONBLOCK);
   ASSERT_GE(pipe, 0);
-  auto writer = std::make_unique<TelemetryWriter>(open_log(folder_ / "telemetry.csv"), 7, 1);
+  auto writer = std::make_unique<TelemetryWriter>(open_log(folder_ / "telemetry.csv"), TelemetryFormat{7}, 1);
   struct Worker {
     std::function<void()> drain;
   };
