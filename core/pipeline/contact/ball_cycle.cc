@@ -143,6 +143,7 @@ class Center {
   bool outdated{};          ///< came nearer, but the half spaces do not hold there: past an edge, or the surface turned
   bool is_provisional{};    ///< another motion may follow at once, as in ContactSubsteps
   bool infeasible = false;  ///< the half spaces had no common point
+  bool lacks_work = false;  ///< the budget of work has shortened or ended the motion
 
  private:
   void push_contact() noexcept;
@@ -166,7 +167,9 @@ class Center {
   Obstacle obstacle_;
   WorkMeter& work_;
   detail::Budget budget_{work_};
-  bool is_last_{};  // the part of the budget that was set aside serves now, for a short motion
+  int last_looks_ = 0;                // attempts since the budget was spent
+  bool is_proven_{};                  // the chords of the rest of this sub-step's attempts are parts of `proven_`
+  Vector3 proven_ = Vector3::Zero();  // part of the last chord that was not proved to its end [m]
 };
 
 /// Adds the half space of the contact at the start of the sub-step. Where the field has no gradient there is none: deep
@@ -224,11 +227,16 @@ bool Center::certify(const Vector3& end, double least_gap) noexcept {
   obstacle_.exhausted = false;
   work_.add(Work::kAttempt);
   there_ = field_.sample(end);
+  const auto keeps_gap = [&]() noexcept {
+    obstacle_.share = 1.0;
+    obstacle_.sample = there_;
+    return there_.distance > 0.0 && there_.distance + lengths_.rounding >= std::min(here_.distance, least_gap);
+  };
+  if (is_proven_) return keeps_gap();
   if (here_.distance <= 0.0 || (end - at_).norm() + least_gap <= here_.clearance) return true;
-  if (!detail::chord_is_free(field_, at_, here_.clearance, end, there_.clearance, budget_, obstacle_)) return false;
-  obstacle_.share = 1.0;
-  obstacle_.sample = there_;
-  return there_.distance > 0.0 && there_.distance + lengths_.rounding >= std::min(here_.distance, least_gap);
+  const bool is_free = detail::chord_is_free(field_, at_, here_.clearance, end, there_.clearance, budget_, obstacle_);
+  if (obstacle_.exhausted) proven_ = obstacle_.share * (end - at_);
+  return is_free && keeps_gap();
 }
 
 /// Adds the half space of the second look. False: there is no room, or the field has no gradient at the obstacle.
@@ -270,21 +278,28 @@ bool Center::look_again(const Vector3& end, const Vector3& aim, MotionShare& sha
   const Vector3 tried = motion_;
   constrain(aim);
   if (!((motion_ - tried).norm() > lengths_.metric.tolerance)) return false;
+  is_proven_ = false;
   share.look_again(1.0);
   return true;
 }
 
-/// Tells whether work is left for another attempt. Once only the part that was set aside is left, the motion becomes as
-/// short as a quarter of what the last attempt has proved: else the next cycle would begin at the same place and spend
-/// its budget on the same motion again.
+/// Tells whether another attempt may follow. Once the budget is spent the motion ends where the proof of its chord has
+/// come to, or within a quarter if there is none: else the next cycle would begin at the same place and spend its
+/// budget on the same motion again. That takes some look-ups beyond the budget.
 bool Center::has_work(MotionShare& share) noexcept {
+  constexpr int kMostLastLooks = 5;  // chosen: a second look, and a proven chord that is halved twice
+  constexpr double kWithin = 0.999;  // of a proven chord, because of rounding
   if (!work_.is_spent()) return true;
-  if (is_last_) return false;
-  is_last_ = true;
-  work_.set_aside(0);
-  share.forgo_looks();
-  share.limit_to(0.25 * share.value() * (obstacle_.exhausted ? obstacle_.share : 1.0));
-  return !work_.is_spent();
+  lacks_work = true;
+  if (last_looks_++ == kMostLastLooks) return false;
+  if (obstacle_.exhausted) {
+    is_proven_ = true;
+    motion_ = proven_;
+    share.restart(kWithin);
+  } else if (!is_proven_) {
+    share.limit_to(0.25 * share.value());
+  }
+  return true;
 }
 
 bool Center::step(const Vector3& goal) noexcept {
@@ -295,7 +310,7 @@ bool Center::step(const Vector3& goal) noexcept {
   if (spaces_.count > 0) constrain(aim);
   outdated = false;
   MotionShare share(1.0);
-  obstacle_.exhausted = false;
+  obstacle_.exhausted = is_proven_ = false;
   while (share.next() && has_work(share)) {
     const Vector3 motion = share.value() * motion_;
     const bool follows = share.is_whole() && held.count == 0;
@@ -338,7 +353,8 @@ struct BallResult {
 BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotation, bool inside,
                    SubstepPath& path) noexcept {
   BallResult result{.inside = inside};
-  do {
+  bool goes_on = true;
+  while (goes_on) {
     const FieldSample& here = center.look();
     result.inside = result.inside && here.distance <= 0.0;
     result.smallest = center.is_near() ? here.distance : std::numeric_limits<double>::infinity();
@@ -351,8 +367,12 @@ BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotati
     const bool has_moved = center.step(goal);
     path.push({rotation, center.at()});
     if (!has_moved) break;
-  } while ((center.cut || center.outdated || center.is_provisional) && !result.inside &&
-           result.substeps < kMaxSubsteps && !center.is_out_of_work());
+    goes_on =
+        (center.cut || center.outdated || center.is_provisional) && !result.inside && result.substeps < kMaxSubsteps;
+    if (!goes_on || !center.is_out_of_work()) continue;
+    center.lacks_work = true;
+    break;
+  }
   return result;
 }
 
@@ -365,7 +385,6 @@ Status ball_cycle(const Voxelmap& field, const Parameters& q, const ContactLengt
   const Vector3& goal = input.H_WD.translation;
   work.start(q.work_budget);
   work.add(Work::kCycle);
-  work.set_aside(q.work_budget / 4);
   Center center(field, q.workspace, lengths, state.H_WS.translation, input.beyond_W, work);
   path.clear();
   const BallResult result = advance(center, goal, input.H_WD.rotation, state.inside, path);
@@ -386,7 +405,7 @@ Status ball_cycle(const Voxelmap& field, const Parameters& q, const ContactLengt
   report.substeps = std::max(1u, result.substeps);
   report.unconverged = false;
   report.work = work.spent();
-  report.out_of_work = work.is_spent() && !(center.at() == goal);
+  report.out_of_work = center.lacks_work && !(center.at() == goal);
   report.outcome = detail::outcome_of({.held = center.held.count > 0,
                                        .cut = center.cut,
                                        .dropped = false,

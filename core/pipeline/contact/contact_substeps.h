@@ -178,16 +178,18 @@ class ContactSubsteps {
     at_edge_ = EdgeObstacle{};
     is_outdated_ = false;
     may_look_at_end_ = true;
+    led_away_ = false;
     first_look_row_ = rows_.count;
     const std::uint64_t begin = work_.spent();
     bool is_first_attempt = true;
     while (share_.next()) {
       result_.out_of_work = work_.is_spent();
       if (result_.out_of_work) break;
-      if (!set_trial_pose() || leads_away()) {
+      if (!set_trial_pose()) {
         share_.halve();
         continue;
       }
+      if (leads_away()) continue;
       end(times_, &StepTimes::solve_ns);
       work_.add(Work::kAttempt);
       const Freedom freedom{are_samples_free(), are_features_free(), are_edges_free()};
@@ -231,8 +233,8 @@ class ContactSubsteps {
 
   /// Tells whether another sub-step follows.
   bool remain() noexcept {
-    // a motion that regains lost gaps may lead away by a margin: one in a cycle
-    const bool is_unfinished = result_.cut || (is_outdated_ && is_nearer_) || is_provisional();
+    // a motion that regains lost gaps, or was shortened, may lead away by a margin: one in a cycle
+    const bool is_unfinished = (result_.cut && !led_away_) || (is_outdated_ && is_nearer_) || is_provisional();
     const bool do_remain = share_.value() != 0.0 && is_unfinished && !result_.inside && budget_.balls > 0 &&
                            result_.substeps < kMaxSubsteps && free_substeps_ < kMostFreeSubsteps;
     if (!do_remain) return false;
@@ -629,16 +631,24 @@ class ContactSubsteps {
   bool set_trial_pose() noexcept {
     motion_ = {share_.value() * step_.motion.translation, share_.value() * step_.motion.rotation};
     H1_ = step_.follows && share_.is_whole() ? input_.H_WD : H0_ * set_matrix(motion_);
-    cut_off(scene_.parameters->workspace, H0_, H1_, motion_);
+    is_cut_by_faces_ = cut_off(scene_.parameters->workspace, H0_, H1_, motion_);
     return travel(lengths_.sphere, motion_) <= around_.free_displacement;
   }
 
-  /// Tells whether a motion ends farther from the device than rest, by more than a margin. Only a motion that the
-  /// solver has not finished may: the faces of the workspace then take the part of it that would lead nearer.
-  bool leads_away() const noexcept {
-    if (!step_.unconverged || !scene_.parameters->workspace.limited || result_.inside) return false;
-    const double left = std::sqrt(lengths_.metric.squared(on_to_device(H1_, unconstrained_motion(H1_, input_.H_WD))));
-    return left > std::sqrt(lengths_.metric.squared(on_to_device(H0_, free_))) + lengths_.margin;
+  /// Shortens a motion that ends farther from the device than rest, by more than a margin. False: it does not. Only a
+  /// motion that the solver has not finished may: the faces of the workspace then take the part of it that would lead
+  /// nearer. Distances are compared as in `regain_slowly`.
+  bool leads_away() noexcept {
+    if (!is_cut_by_faces_ || !step_.unconverged || result_.inside) return false;
+    work_.add(Work::kBall);
+    const double gain = lengths_.metric.squared(on_to_device(H1_, unconstrained_motion(H1_, input_.H_WD))) -
+                        lengths_.metric.squared(on_to_device(H0_, free_));
+    const double rest = std::sqrt(lengths_.metric.squared(free_));  // without the way beyond the workspace
+    const double farther = std::sqrt(std::max(0.0, rest * rest + gain)) - rest;
+    if (!(farther > lengths_.margin)) return false;
+    led_away_ = true;
+    share_.limit_to(0.5 * lengths_.margin / farther * share_.value());
+    return true;
   }
 
   bool are_samples_free() noexcept {
@@ -884,6 +894,8 @@ class ContactSubsteps {
   double most_search_radius_ = 0.0;
   double longest_displacement_ = 0.0;  // of a point in a sub-step [m]
   bool is_outdated_{};                 // holding points have left the surface, or it has turned
+  bool is_cut_by_faces_{};             // the faces of the workspace have moved the end of the motion that is tried
+  bool led_away_{};                    // a motion of this sub-step was shortened because it led away
   bool may_look_at_end_{};             // no second look at the end of a motion has failed in this sub-step
   bool is_nearer_{};                   // the last step leads nearer to the device
 

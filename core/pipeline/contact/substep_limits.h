@@ -22,11 +22,12 @@ double allowed_share(const Motion& motion, const Surroundings& around, double se
                      const ContactLengths& lengths, bool constrained) noexcept;
 
 /// Moves the origin of H1 to the nearest point of the workspace and changes the motion from H0 so that it ends there.
-/// Then some points may be displaced by more than before, since the body turns about another point.
-inline void cut_off(const WorkspaceBox& box, const Pose& H0, Pose& H1, Motion& motion) noexcept {
-  if (!box.limited || box.contains(H1.translation)) return;
+/// Then some points may be displaced by more than before, since the body turns about another point. False: it is there.
+inline bool cut_off(const WorkspaceBox& box, const Pose& H0, Pose& H1, Motion& motion) noexcept {
+  if (!box.limited || box.contains(H1.translation)) return false;
   H1.translation = box.nearest(H1.translation);
   motion.translation = H0.rotation.conjugate()._transformVector(H1.translation - H0.translation);
+  return true;
 }
 
 }  // namespace godobject::detail
