@@ -10,7 +10,7 @@ namespace godobject::firmware {
 /// Returns the first line of telemetry.csv with its line feed: names of columns with units.
 std::string telemetry_header(int joint_count);
 
-/// What all rows of a file have in common.
+/// Properties that all rows of a file share.
 struct TelemetryFormat {
   int joint_count = 0;
   Quaternion R_WR = Quaternion::Identity();  ///< rotates directions of the room to those of the scene

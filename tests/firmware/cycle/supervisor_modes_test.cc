@@ -554,9 +554,12 @@ TEST(SupervisorModes, LetTheOperatorLeadTheToolOut) {
   for (const bool far : {false, true}) {
     for (const bool engaging : {false, true}) {
       Bench bench = bench_in(Mode::kArmed);
-      bench.seen.inside = true;
+      const bool presses = far == engaging;  // or is inside
+      bench.seen.inside = !presses;
+      bench.seen.contact_force = presses ? 5.0 : 0.0;
       bench.step();
-      bench.seen.inside = !engaging;
+      if (engaging) bench.seen.inside = false;
+      if (engaging) bench.seen.contact_force = 0.0;
       bench.step();
       ASSERT_EQ(bench.supervisor.mode(), engaging ? Mode::kEngaging : Mode::kArmed);
       bench.seen.drifts_early = true;

@@ -14,7 +14,9 @@
 #include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "tests/support/random.h"
+#include "toolchain/scene_compiler/field/near_facets.h"
 #include "toolchain/scene_compiler/mesh/mesh_edges.h"
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
 namespace godobject::scene_compiler::surface_facets_test {
 namespace {
@@ -293,6 +295,51 @@ TEST(SurfaceFacets, TurnAtCreasesAndThinWallsOnly) {
   const TriangleMesh ball = test::ball_mesh(0.012, 16);
   const SurfaceFacets round(SolidSurface(ball, SurfaceKind::kSolid, 0.0), 0.0);
   EXPECT_FALSE(round.turns(*round.near(ball.vertices[20], 1e-4)));
+}
+
+/// A facet of these vertices, with its planes; without area it has no normal, and its planes are zero.
+format::Facet facet_of(const Vector3d (&vertex)[3]) {
+  format::Facet facet{};
+  for (int k = 0; k < 3; ++k) std::copy(vertex[k].data(), vertex[k].data() + 3, facet.vertex[k]);
+  set_planes(facet, (vertex[1] - vertex[0]).cross(vertex[2] - vertex[0]).normalized());
+  return facet;
+}
+
+/// Random triangles, obtuse ones, slivers and some without area: the comparison of planes leaves out none that is near.
+TEST(NearFacets, AreThoseOfAllDistances) {
+  test::Random random(5);
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<format::Facet> facets;
+    std::vector<std::uint32_t> numbers;
+    const Vector3d p = random.in_cube(1.0);
+    std::vector<double> exact;
+    for (std::uint32_t i = 0; i < 12; ++i) {
+      Vector3d vertex[3] = {random.in_cube(1.0), random.in_cube(1.0), random.in_cube(1.0)};
+      if (i % 4 == 1) vertex[2] = vertex[0] + random.between(-0.5, 1.5) * (vertex[1] - vertex[0]) + 0.01 * vertex[2];
+      if (i % 4 == 2) vertex[2] = vertex[0];
+      facets.push_back(facet_of(vertex));
+      numbers.push_back(i);
+      exact.push_back((nearest_point_on_triangle(p, vertex[0], vertex[1], vertex[2]) - p).norm());
+    }
+    const double most = random.between(0.0, 1.0);
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      const double squared = squared_distance_within(facets[i], p, most);
+      if (exact[i] * exact[i] > most) {
+        EXPECT_GT(squared, most);
+      } else {
+        EXPECT_NEAR(squared, exact[i] * exact[i], 1e-12);
+      }
+    }
+    const double radius = random.between(0.0, 0.3);
+    const double furthest = *std::min_element(exact.begin(), exact.end()) + 2.0 * radius;
+    std::vector<std::uint32_t> expected;
+    for (const std::uint32_t i : numbers) {
+      if (exact[i] <= furthest) expected.push_back(i);
+    }
+    std::vector<std::uint32_t> near;
+    NearFacets(facets).find(numbers, p, radius, near);
+    EXPECT_EQ(near, expected) << trial;
+  }
 }
 
 /// The bound of the difference holds at random points, and is not far above the largest.

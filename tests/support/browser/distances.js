@@ -79,7 +79,8 @@ async function assertDistances(tab, count, tolerance) {
  */
 function coloursOfNearest(tab) {
   return tab.evaluate(() => {
-    const { picture } = window.godobjectPage;
+    const { picture, objects } = window.godobjectPage;
+    if (objects) objects.points.visible = false; // discs of contact points are yellow, too
     const { camera, canvas, colours: { motions: [{ count, points, pose, known }] } } = picture;
     const least = known.subarray(0, count).reduce((a, b) => Math.min(a, b));
     const outwards = (place) => place.clone().sub(picture.motions[0].place()).projectOnPlane(camera.up);
@@ -98,6 +99,7 @@ function coloursOfNearest(tab) {
     copy.drawImage(canvas, 0, 0);
     camera.position.copy(position);
     camera.quaternion.copy(quaternion);
+    if (objects) objects.points.visible = true;
     picture.invalidate();
     const around = 24; // px
     const { data } = copy.getImageData(canvas.width / 2 - around, canvas.height / 2 - around, 2 * around, 2 * around);

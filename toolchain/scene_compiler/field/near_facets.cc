@@ -36,8 +36,8 @@ double squared_distance_within(const format::Facet& facet, const Vector3d& p, do
   return least > most ? least : squared_distance(facet, p);
 }
 
-std::uint32_t NearFacets::find(std::span<const std::uint32_t> numbers, const Vector3d& center, double radius,
-                               std::vector<std::uint32_t>& near) {
+void NearFacets::find(std::span<const std::uint32_t> numbers, const Vector3d& center, double radius,
+                      std::vector<std::uint32_t>& near) {
   least_.resize(numbers.size());
   squared_.assign(numbers.size(), -1.0);
   for (std::size_t i = 0; i < numbers.size(); ++i) least_[i] = least_squared_distance(facets_[numbers[i]], center);
@@ -54,7 +54,6 @@ std::uint32_t NearFacets::find(std::span<const std::uint32_t> numbers, const Vec
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (least_[i] <= furthest * furthest && squared(i) <= furthest * furthest) near.push_back(numbers[i]);
   }
-  return numbers[nearest];
 }
 
 }  // namespace godobject::scene_compiler

@@ -21,10 +21,10 @@ class NearFacets {
   explicit NearFacets(std::span<const format::Facet> facets) : facets_(facets) {}
 
   /// Of the facets with these numbers; `center` and `radius` of the ball [m]. `near` gets them in the same order.
-  /// Returns the number of the one that is nearest to the centre. There is at least one. Cost: a comparison of planes
-  /// for each facet, and a distance for each that these do not leave out.
-  std::uint32_t find(std::span<const std::uint32_t> numbers, const Eigen::Vector3d& center, double radius,
-                     std::vector<std::uint32_t>& near);
+  /// There is at least one. Cost: a comparison of planes for each facet, and a distance for each that these do not
+  /// leave out.
+  void find(std::span<const std::uint32_t> numbers, const Eigen::Vector3d& center, double radius,
+            std::vector<std::uint32_t>& near);
 
  private:
   std::span<const format::Facet> facets_;

@@ -56,6 +56,7 @@ Vector3d vertex_normal(const TriangleMesh& mesh, const std::vector<Vector3d>& fa
 /// reach less far beyond them. A part whose facets have all been added is not divided.
 void add_near(NearFacets& search, const std::vector<std::uint32_t>& near, const Vector3d& center, double half_edge,
               int divisions, std::vector<std::uint32_t>& numbers) {
+  if (numbers.size() > format::kMostFacets) return;  // there are too many, whatever follows
   const auto is_added = [&](std::uint32_t number) {
     return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
   };
