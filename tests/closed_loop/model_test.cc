@@ -110,6 +110,21 @@ TEST_P(NobodyHolds, AnArmOfOtherMassesStopsWhileItEngages) {
   EXPECT_LT(stop.in_all, kEngagingMost);
 }
 
+/// The tool begins inside a thick plate: the controller waits until somebody leads it out, but nobody does.
+TEST_P(NobodyHolds, AnArmOfOtherMassesThatBeginsInsideStops) {
+  static const test::SceneImage thick = test::ball_over_plate(0.06);
+  SimulatedRun::Options wrong = options();
+  wrong.load = kNobody;
+  SimulatedRun run(thick, wrong);
+  run.run(8000);
+  const Stop stop = stop_of(run, 0);
+  print(std::string("begins inside, ") + GetParam().name, stop, 0);
+  test::record(seen_since(run.cycles, 0));
+  EXPECT_EQ(run.cycles[400].record.outcome, Outcome::kStartInside);
+  EXPECT_EQ(stop.fault, Fault::kDrifts);
+  EXPECT_LT(stop.in_all, kRunningMost);
+}
+
 TEST_P(HandReleases, AnArmOfAnotherLoadStopsWhileItRuns) {
   constexpr std::int64_t kRelease = 1500;
   SimulatedRun::Options wrong = options();

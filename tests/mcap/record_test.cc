@@ -266,6 +266,22 @@ TEST(Record, RepeatsTheDevicePoseBeforeARowThatHasNone) {
   expect_pose(reader, recording.cycles[0].H_WD);
 }
 
+/// The force of a telemetry is along the axes of the room; here a turn by 90 degrees about z leads from them to W.
+TEST(Record, TurnsTheForceOfATelemetry) {
+  const auto file = std::filesystem::path(testing::TempDir()) / ("mcap_turned_" + std::to_string(::getpid()) + ".csv");
+  std::ofstream(file)
+      << "t_s,mode,fault,share,outcome,contacts,depth_m,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,"
+         "dpx_m,dpy_m,dpz_m,dqw,dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,gqy,gqz,torque1_Nm,wqw,wqx,wqy,wqz\n"
+         "0.001,running,0,1,contact,1,0,3,4,5,0,1,0,0,0,0,1,0,0,0,0,0,0,1,0,0,0,9,"
+         "0.70710678118654757,0,0,0.70710678118654757\n";
+  Recording recording;
+  read_cycles(file, recording);
+  std::filesystem::remove(file);
+  ASSERT_EQ(recording.cycles.size(), 1u);
+  EXPECT_TRUE(recording.cycles[0].wrench.force.isApprox(Vector3(-4, 3, 5), 1e-12));
+  EXPECT_TRUE(recording.cycles[0].wrench.torque.isApprox(Vector3(-1, 0, 0), 1e-12));
+}
+
 TEST(Record, HoldsJointsAndControllerOfATelemetry) {
   Recording recording = box_recording();
   recording.cycles = random_cycles(2);

@@ -113,6 +113,18 @@ TEST_F(ControllerCommandTest, RendersAPathAndLogsIt) {
   EXPECT_TRUE(contact);
 }
 
+TEST_F(ControllerCommandTest, LogsHowTheWorkspaceIsTurned) {
+  write_controller("");
+  std::string file = text("c.toml");
+  const std::string table = "[workspace]\n";
+  file.insert(file.find(table) + table.size(), "turn = [0.8, 0.0, -0.6, 0.0]\n");
+  std::ofstream(folder_ / "c.toml") << file;
+  ASSERT_EQ(run("c.toml --duration 0.01 --log logs"), 0) << words_;
+  const std::string log = text("logs/telemetry.csv");
+  EXPECT_NE(log.find(",wqw,wqx,wqy,wqz\n"), std::string::npos);
+  EXPECT_TRUE(log.ends_with(",0.8,0,-0.6,0\n")) << log;
+}
+
 /// The cycle after the last one takes the power away.
 TEST_F(ControllerCommandTest, EndsAfterItsDurationAlsoAlongAPath) {
   write_path();

@@ -75,7 +75,7 @@ async function assertDistances(tab, count, tolerance) {
 
 /**
  * Returns the colours about the outermost one of the nearest vertices, each once, seen from beside the body: red, green,
- * blue, in steps of 8. A pixel is some thousandths of a millimetre, by which the body may move after it was measured.
+ * blue, in steps of 8. After the measurement the body may still move by some pixels: each is thousandths of a millimetre.
  */
 function coloursOfNearest(tab) {
   return tab.evaluate(() => {

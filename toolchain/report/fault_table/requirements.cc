@@ -15,6 +15,9 @@ Injection loop_overrun(const std::string& row) { return {kLoop, "Rows/ClosedLoop
 Injection nobody_holds(const std::string& row) {
   return {kLoop, "Masses/NobodyHolds.AnArmOfOtherMassesStopsWhileItEngages/" + row};
 }
+Injection begins_inside(const std::string& row) {
+  return {kLoop, "Masses/NobodyHolds.AnArmOfOtherMassesThatBeginsInsideStops/" + row};
+}
 Injection hand_releases(const std::string& row) {
   return {kLoop, "Masses/HandReleases.AnArmOfAnotherLoadStopsWhileItRuns/" + row};
 }
@@ -163,6 +166,12 @@ const std::vector<Requirement>& requirements() {
        -1,
        {nobody_holds("payload02kgheavier"), nobody_holds("payload012kgheavier"), nobody_holds("payload02kglighter"),
         nobody_holds("links10lighter"), nobody_holds("links10heavier")}},
+      {"the same, the tool begins inside an object",
+       "STOP within 200 mm",
+       Reaction::kStop,
+       -1,
+       {begins_inside("payload02kgheavier"), begins_inside("payload012kgheavier"), begins_inside("payload02kglighter"),
+        begins_inside("links10lighter"), begins_inside("links10heavier")}},
       {"the same payload, the hand releases the running arm",
        "STOP within 200 mm",
        Reaction::kStop,
