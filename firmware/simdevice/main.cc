@@ -103,8 +103,8 @@ void simulate(const Options& options) {
   const std::int64_t end_ns =
       options.duration ? clock.now_ns() + static_cast<std::int64_t>(1e9 * *options.duration) : sim::kNever;
   sim::CanNodes& nodes = device->nodes();
-  const sim::CanopenNode& panel = nodes.node(nodes.node_count() - 1);
-  std::int64_t stopped_ns = 0;  // until then the panel is not operational; each start of a controller resets it
+  const sim::CanopenNode& panel = nodes.node(nodes.node_count() - 1);  // or a drive, where there is no panel
+  std::int64_t stopped_ns = 0;                                         // the panel was last seen not operational
   while (!ended.load(std::memory_order_relaxed) && clock.now_ns() < end_ns) {
     const std::int64_t wanted_ns = bridge->poll(clock.now_ns());
     if (panel.nmt_state() != hal::canopen::kNmtOperational) stopped_ns = nodes.now_ns();

@@ -283,9 +283,9 @@ bool Center::look_again(const Vector3& end, const Vector3& aim, MotionShare& sha
   return true;
 }
 
-/// Tells whether another attempt may follow. Once the budget is spent the motion ends where the proof of its chord has
-/// come to, or within a quarter if there is none: else the next cycle would begin at the same place and spend its
-/// budget on the same motion again. That takes some look-ups beyond the budget.
+/// Tells whether another attempt may follow. Once the budget is spent some more do, which look up little: the motion is
+/// then the part of the last chord that is proved free, or a quarter of the motion if no chord is. Else the next cycle
+/// would begin at the same place and spend its budget on the same motion again.
 bool Center::has_work(MotionShare& share) noexcept {
   constexpr int kMostLastLooks = 5;  // chosen: a second look, and a proven chord that is halved twice
   constexpr double kWithin = 0.999;  // of a proven chord, because of rounding
@@ -353,8 +353,7 @@ struct BallResult {
 BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotation, bool inside,
                    SubstepPath& path) noexcept {
   BallResult result{.inside = inside};
-  bool goes_on = true;
-  while (goes_on) {
+  while (true) {
     const FieldSample& here = center.look();
     result.inside = result.inside && here.distance <= 0.0;
     result.smallest = center.is_near() ? here.distance : std::numeric_limits<double>::infinity();
@@ -367,11 +366,10 @@ BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotati
     const bool has_moved = center.step(goal);
     path.push({rotation, center.at()});
     if (!has_moved) break;
-    goes_on =
-        (center.cut || center.outdated || center.is_provisional) && !result.inside && result.substeps < kMaxSubsteps;
-    if (!goes_on || !center.is_out_of_work()) continue;
-    center.lacks_work = true;
-    break;
+    const bool is_unfinished = center.cut || center.outdated || center.is_provisional;
+    if (!is_unfinished || result.inside || result.substeps == kMaxSubsteps) break;
+    center.lacks_work = center.lacks_work || center.is_out_of_work();
+    if (center.is_out_of_work()) break;
   }
   return result;
 }

@@ -233,8 +233,8 @@ class ContactSubsteps {
 
   /// Tells whether another sub-step follows.
   bool remain() noexcept {
-    // a motion that regains lost gaps, or was shortened, may lead away by a margin: one in a cycle
-    const bool is_unfinished = (result_.cut && !led_away_) || (is_outdated_ && is_nearer_) || is_provisional();
+    // a motion that regains lost gaps, or that was shortened, may lead away by a margin: one in a cycle
+    const bool is_unfinished = !led_away_ && (result_.cut || (is_outdated_ && is_nearer_) || is_provisional());
     const bool do_remain = share_.value() != 0.0 && is_unfinished && !result_.inside && budget_.balls > 0 &&
                            result_.substeps < kMaxSubsteps && free_substeps_ < kMostFreeSubsteps;
     if (!do_remain) return false;

@@ -20,9 +20,9 @@ class NearFacets {
   /// Refers to the facets.
   explicit NearFacets(std::span<const format::Facet> facets) : facets_(facets) {}
 
-  /// Of the facets with these numbers; `center` and `radius` of the ball [m]. `near` gets them in the same order.
-  /// There is at least one. Cost: a comparison of planes for each facet, and a distance for each that these do not
-  /// leave out.
+  /// Sets `near` to those of the facets with these numbers, of which there is at least one, in the same order. `center`
+  /// and `radius` of the ball [m]. Cost: a comparison of planes for each facet, and a distance for each that these do
+  /// not leave out.
   void find(std::span<const std::uint32_t> numbers, const Eigen::Vector3d& center, double radius,
             std::vector<std::uint32_t>& near);
 
